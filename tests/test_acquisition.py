@@ -19,9 +19,9 @@ from exactacq.geometry.curves import Arc
 from exactacq.geometry.interval_union import Cover
 from exactacq.geometry.late import late_point
 from exactacq.numbers.rationals import ends
-from exactacq.sensing.acquisition import Acquisition, Place, between, clusters, distance_bounds
+from exactacq.sensing.acquisition import Acquisition, between, clusters, distance_bounds
 from exactacq.sensing.leg_views import Shares
-from exactacq.sensing.legs import Leg
+from exactacq.sensing.legs import Leg, Place
 
 NEAR = fmpq(1, 2**40)
 """So much before and after the place the obstacle is asked about."""

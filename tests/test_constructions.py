@@ -254,7 +254,7 @@ def test_what_was_looked_along_is_not_looked_for_again(monkeypatch: pytest.Monke
     asked = list[int]()
     place = acquisition.Acquisition.place
 
-    def counted(self: acquisition.Acquisition) -> acquisition.Place:
+    def counted(self: acquisition.Acquisition) -> legs.Place:
         asked.append(self.k)
         return place(self)
 

@@ -1,10 +1,11 @@
-"""When an obstacle becomes whole: the place of a leg where the last gap in what is known of it closes.
+"""Where on a leg an obstacle becomes whole: the place at which the last gap in what is known of it closes.
 
-What is known grows with closed sets, so the moment is one of finitely many candidates; between two of them a
-place with a rational parameter tells. First the places are looked at where families of views begin and end.
-Between two of them an end of a gap stays where it is, or moves until the gap closes at another end: so next
-come the places where the ends of the gaps that are left are seen. Both ends of a gap move where the range
-leaves the far part of a concave arc: they meet where the circle of the range touches the arc from inside.
+What is known is a union of closed intervals that grows, so the place is one of finitely many candidates. They
+are bisected: at a place with a rational parameter between two neighbours, the obstacle is whole or not. The
+first candidates are the places where families of views begin and end. Between two of these an end of a gap
+stays where it is, or moves until the gap closes at another end: so the next candidates are the places from
+which the ends of the gaps that are left are seen. Both ends of a gap move where the range leaves the far part
+of a concave arc: they meet where the circle of the range touches the arc from inside.
 """
 
 from __future__ import annotations
@@ -13,7 +14,6 @@ from collections import ChainMap
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from math import hypot, inf
-from typing import TypeAlias
 
 from flint import fmpq
 
@@ -29,19 +29,19 @@ from exactacq.numbers.rationals import ends
 from exactacq.numbers.real import Real
 from exactacq.sensing.leg_facts import rays_along
 from exactacq.sensing.leg_views import Share, Shares
-from exactacq.sensing.legs import Leg
+from exactacq.sensing.legs import Leg, Place
 from exactacq.visibility.place_facts import NOTHING_KNOWN, PlaceFacts
 
 BITS = 64
 """Precision of the balls that part places: that of late numbers, so none is made."""
 
-Place: TypeAlias = "tuple[Real, Point]"
-"""A place of a leg: its parameter on the rail, and the point."""
-
 
 @dataclass(frozen=True, slots=True)
-class Meanwhile:
-    """A part of a leg with what is known at its start: there the obstacle is not whole, at its end it is."""
+class Bracket:
+    """A part of a leg at whose start an obstacle is not whole, and at whose end it is.
+
+    ``known`` is what is known at the start.
+    """
 
     leg: Leg
     known: ChainMap[int, Cover]
@@ -69,28 +69,28 @@ class Acquisition:
         leg = self._every.leg
         if self._is_whole(self.before):
             return leg.first, leg.start
-        stretch = Meanwhile(leg, self.before)
+        bracket = Bracket(leg, self.before)
         if self._last.along is not None:
             # Before, the robot is behind that edge; there it sees all of it.
-            moment = self._every.place_of(self._last.along)
+            place = self._every.place_of(self._last.along)
             if len(self._last.edges) == 1:
-                return moment
-            if moment[1].rational is not None:
-                known = self._partly_known(leg.upto(*moment))
+                return place
+            if place[1].rational is not None:
+                known = self._partly_known(leg.upto(*place))
                 if known is None:
-                    return moment
-                stretch = Meanwhile(leg.between(moment, (leg.last, leg.end)), known)
-        _, stretch = self._closing(self._moments(stretch), stretch)
-        cluster, stretch = self._closing(self._moments(stretch, self._at_gaps(stretch)), stretch)
+                    return place
+                bracket = Bracket(leg.between(place, (leg.last, leg.end)), known)
+        _, bracket = self._closing(self._candidates(bracket), bracket)
+        cluster, bracket = self._closing(self._candidates(bracket, self._at_gaps(bracket)), bracket)
         # What balls cannot part is compared here, and only here; with an end of the leg too if it is close.
         here = [u for u, _ in cluster]
         for bound, side in ((leg.first, 1), (leg.last, -1)):
             if any(u is bound for u in here):
-                cluster = [m for m in cluster if leg.order(m[0], bound) in (0, side)]
-        cluster.sort(key=lambda moment: moment[0], reverse=not leg.ahead)
-        distinct = [m for n, m in enumerate(cluster) if n == 0 or leg.order(m[0], cluster[n - 1][0]) > 0]
-        (moment,), _ = self._closing([[m] for m in distinct], stretch)
-        return moment
+                cluster = [p for p in cluster if leg.order(p[0], bound) in (0, side)]
+        cluster.sort(key=lambda place: place[0], reverse=not leg.ahead)
+        distinct = [p for n, p in enumerate(cluster) if n == 0 or leg.order(p[0], cluster[n - 1][0]) > 0]
+        (place,), _ = self._closing([[p] for p in distinct], bracket)
+        return place
 
     def facts(self, place: Point) -> PlaceFacts:
         """What is known of the place that was found, by the ends of gaps that close there.
@@ -103,14 +103,14 @@ class Acquisition:
         rim = [(e, point) for at, e, point in self._at_range if at is place]
         return PlaceFacts(rays, rim=rim) if rays or rim else NOTHING_KNOWN
 
-    def _closing(self, clusters: list[list[Place]], stretch: Meanwhile) -> tuple[list[Place], Meanwhile]:
-        """The first cluster of places of a stretch after which the obstacle is whole; the stretch around it.
+    def _closing(self, clusters: list[list[Place]], bracket: Bracket) -> tuple[list[Place], Bracket]:
+        """The first cluster of places after which the obstacle is whole, and the bracket around it, bisected.
 
         The clusters are in the order of the leg.
         """
         leg = self.shares.leg
-        low, high, known = 0, len(clusters) - 1, stretch.known
-        begin, end = (stretch.leg.first, stretch.leg.start), (stretch.leg.last, stretch.leg.end)
+        low, high, known = 0, len(clusters) - 1, bracket.known
+        begin, end = (bracket.leg.first, bracket.leg.start), (bracket.leg.last, bracket.leg.end)
         while low < high:
             middle = (low + high) // 2
             u = between(clusters[middle], clusters[middle + 1])
@@ -120,7 +120,7 @@ class Acquisition:
                 high, end = middle, here
             else:
                 low, begin, known = middle + 1, here, partly
-        return clusters[low], Meanwhile(leg.between(begin, end), known)
+        return clusters[low], Bracket(leg.between(begin, end), known)
 
     def _is_late(self, u: fmpq) -> bool:
         """Whether bounds tell that the obstacle is whole before a place."""
@@ -144,9 +144,9 @@ class Acquisition:
     def _is_whole(self, covers: ChainMap[int, Cover]) -> bool:
         return all(target.is_in(covers.get(target.edge, EMPTY)) for target in self._targets)
 
-    def _at_gaps(self, stretch: Meanwhile) -> Iterator[Place]:
+    def _at_gaps(self, bracket: Bracket) -> Iterator[Place]:
         """Where families show the end of a gap, it or its arc comes into range, or the leg reaches it."""
-        shares, k, leg = self.shares, self.k, stretch.leg
+        shares, k, leg = self.shares, self.k, bracket.leg
         corners: set[int] = set()
         for e, span, _ in self._targets:
             curve = shares.complex.table.curves[e]
@@ -154,29 +154,29 @@ class Acquisition:
                 rest = shares.complex.range.radius - curve.radius
                 if rest.sign() > 0:
                     yield from _at_distance(leg, curve.center, rest * rest)
-            for gap in stretch.known.get(e, EMPTY).gaps(span):
+            for gap in bracket.known.get(e, EMPTY).gaps(span):
                 for u, point in ((gap.low, gap.start), (gap.high, gap.end)):
                     for view in shares.reaching(k, e, u, point):
                         self._reaching.append(view)
                         yield view.source.low, view.source.start
                     corner = self._corner(e, point)
                     if corner not in corners:
-                        for moment in self._in_range(leg, e, point):
-                            self._at_range.append((moment[1], e, point))
-                            yield moment
+                        for place in self._in_range(leg, e, point):
+                            self._at_range.append((place[1], e, point))
+                            yield place
                     if corner is not None:
                         # It may end the gaps of two edges.
                         corners.add(corner)
                     if e == leg.edge:
                         yield u, point
 
-    def _moments(self, stretch: Meanwhile, at_gaps: Iterable[Place] = ()) -> list[list[Place]]:
-        """The places of a stretch, in its order, where a family begins or ends, and its end; in clusters.
+    def _candidates(self, bracket: Bracket, at_gaps: Iterable[Place] = ()) -> list[list[Place]]:
+        """The places of a bracket, in its order, where a family begins or ends, and its end; in clusters.
 
         With those *at gaps* the last gap closes at one of them. Places that balls cannot part form a cluster:
         most are one place, found in several ways.
         """
-        shares, k, leg = self.shares, self.k, stretch.leg
+        shares, k, leg = self.shares, self.k, bracket.leg
         found: list[Place] = [(leg.first, leg.start), (leg.last, leg.end), *at_gaps]
         for share in shares.of[k]:
             for end in (share.family.first, share.family.last):
@@ -189,7 +189,7 @@ class Acquisition:
             for bound in (leg.span.low, leg.span.high)
         )
         inside = groups[first : last + 1] if leg.ahead else groups[first : last + 1][::-1]
-        # At its start the obstacle is not whole; its end is no moment if it was put between two of them.
+        # At its start the obstacle is not whole; its end is no candidate if it was put between two of them.
         if len(inside) > 1 and len(inside[0]) == 1:
             inside = inside[1:]
         if len(inside) > 1 and len(inside[-1]) == 1 and leg.last is not shares.leg.last:

@@ -23,7 +23,7 @@ from exactacq.kernel.leg_spans import LegSpan
 from exactacq.kernel.whole_edges import last_shown
 from exactacq.numbers.real import Real
 from exactacq.sensing.free_way import PinOf
-from exactacq.sensing.legs import Leg
+from exactacq.sensing.legs import Leg, Place
 from exactacq.sensing.line_images import bounds
 from exactacq.sensing.targets import Targets
 
@@ -159,9 +159,7 @@ class FamilyFilter:
         point, u = made
         return Interval(u, point, u, point)
 
-    def _end(
-        self, source: Source, is_high: bool, chosen: dict[Family, Extent], pin: PinOf
-    ) -> tuple[Real, Point]:
+    def _end(self, source: Source, is_high: bool, chosen: dict[Family, Extent], pin: PinOf) -> Place:
         """The place of the leg where a family begins or ends; if it is *chosen*, a place inside will do."""
         one, span = source.extent, self.leg.span
         if is_high and source.surely[1] == inf:
@@ -180,7 +178,7 @@ class FamilyFilter:
             chosen[_family(one)] = one
         return _family(one) not in chosen
 
-    def _within(self, point: Point, u: Real) -> tuple[Real, Point]:
+    def _within(self, point: Point, u: Real) -> Place:
         """A place of the leg's curve, moved to the end of the leg if it lies there or beyond it."""
         leg, span = self.leg, self.leg.span
         # What lies on an edge lies between its ends; a way's line is crossed beyond these too.
@@ -191,7 +189,7 @@ class FamilyFilter:
                 return span.high, span.end
         return u, point
 
-    def _place(self, span: Span) -> tuple[Real, Point]:
+    def _place(self, span: Span) -> Place:
         """A place in an interval that has a finite end: the middle, if both are finite."""
         ends = [end for end in span if abs(end) < inf]
         u = fmpq(*(sum(ends) / len(ends)).as_integer_ratio())

@@ -26,7 +26,7 @@ from exactacq.sensing.end_names import Seen
 from exactacq.sensing.family_clipper import FamilyClipper
 from exactacq.sensing.family_filter import FamilyFilter, LastShown
 from exactacq.sensing.free_way import WayViews
-from exactacq.sensing.legs import Leg
+from exactacq.sensing.legs import Leg, Place
 from exactacq.sensing.named_pins import NamedPins
 from exactacq.sensing.straight_way import StraightWay, View, view_from_end
 from exactacq.sensing.targets import Targets
@@ -250,7 +250,7 @@ class Shares:
         curve = curve_image(self.leg.rail.curve)
         return self._filter.last_shown(edges, curve, self.complex.images.curves)
 
-    def place_of(self, single: Extent) -> tuple[Real, Point]:
+    def place_of(self, single: Extent) -> Place:
         """Where on the leg a single line meets it that surely shows something."""
         family, side = next(self._made([single]))
         return family.first.places[side], family.first.points[side]

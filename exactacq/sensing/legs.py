@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -41,6 +41,9 @@ BITS = 256
 """Precision of the balls that tell which corners a way may touch, and which places are inside an edge."""
 SOON = 6
 """So often the way to whatever happens next is halved for a place just past a sighting."""
+
+Place: TypeAlias = "tuple[Real, Point]"
+"""A place of a leg: its parameter on the rail, and the point."""
 
 
 class HaltPlace(NamedTuple):
@@ -174,7 +177,7 @@ class Leg:
         cut = (span.low, span.start, u, place) if self.ahead else (u, place, span.high, span.end)
         return replace(self, span=Interval(*cut))
 
-    def between(self, begin: tuple[Real, Point], end: tuple[Real, Point]) -> Leg:
+    def between(self, begin: Place, end: Place) -> Leg:
         """The part of the leg between two places, given as the robot passes them."""
         low, high = (begin, end) if self.ahead else (end, begin)
         return replace(self, span=Interval(*low, *high))

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
-from typing import Any, TypeAlias
+from typing import Any
 
 from flint import fmpq
 
@@ -31,16 +31,13 @@ from exactacq.scene.scene import Scene, radius_of
 from exactacq.sensing.leg_facts import LegFacts
 from exactacq.sensing.leg_sights import LegSights
 from exactacq.sensing.leg_views import Shares
-from exactacq.sensing.legs import Leg, legs_of
+from exactacq.sensing.legs import Leg, Place, legs_of
 from exactacq.sensing.line_points import Role
 from exactacq.sensing.map import Map
 from exactacq.sensing.path import Piece
 from exactacq.sensing.sensor import Sensor
 from exactacq.sensing.straight_way import StraightWay
 from exactacq.visibility.sensor_range import Range
-
-Place: TypeAlias = "tuple[Real, Point]"
-"""A place of a leg: its parameter on the rail, and the point."""
 
 
 class Change(Enum):
