@@ -1,8 +1,8 @@
-"""The places from which the end of a component's boundary is seen.
+"""The places from which an end of a component's boundary is seen.
 
 Where a terrain's border cuts an edge, or an edge along the border follows, the boundary that counts ends
-at a point that is no corner of the scene. No family of tangent lines leads to it, so the view from that
-point itself is computed: if it sees a place of the path, that place sees it.
+at a point that is no corner of the scene. No family of tangent lines leads to it, so its own isovist is
+computed: visibility is symmetric, and a place of the path sees the point if the point sees the place.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from exactacq.visibility.visible_boundary import BoundaryView
 
 
 class CutEnd:
-    """A point of edge ``edge``, at parameter ``u`` of its rail, that looks around within a radius."""
+    """An end of boundary, at parameter *u* of the rail of ``edge``, and what is seen from it within range."""
 
     def __init__(self, table: EdgeTable, range_: Range, edge: int, u: Real, point: Point) -> None:
         self.table, self.range, self.edge = table, range_, edge

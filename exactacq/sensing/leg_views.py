@@ -140,11 +140,11 @@ class Shares:
 
     def _seen_ends(self) -> dict[int, list[tuple[CutEnd, Interval]]]:
         """From where the ends of obstacles are seen that are cut by a border."""
-        lookouts = self.targets.lookouts
+        cut_ends = self.targets.cut_ends
         return {
-            k: [(end, part) for end in lookouts[k] for part in end.along(self.leg)]
+            k: [(end, part) for end in cut_ends[k] for part in end.along(self.leg)]
             for k in self.obstacles
-            if k in lookouts
+            if k in cut_ends
         }
 
     def _pinned(self, end: End, family: ViewFamily, side: int, leg: Leg) -> End:

@@ -96,7 +96,7 @@ class Sensor:
         return self._shown(self._view(place), k)
 
     def _shown(self, view: Seen, k: int) -> list[tuple[int, Interval]]:
-        ends = [(end.edge, end.pin) for end in self.targets.lookouts.get(k, ()) if end.sees(view.place)]
+        ends = [(end.edge, end.pin) for end in self.targets.cut_ends.get(k, ()) if end.sees(view.place)]
         return [*(part for _, part in self.targets.within({k}, view.spans)), *ends]
 
     def look_around(self, place: Point) -> tuple[list[Notice], dict[int, Cover]]:
@@ -106,7 +106,7 @@ class Sensor:
 
     def _looked_around(self, place: Point) -> tuple[list[Notice], dict[int, Cover]]:
         view = self._view(place)
-        near = sorted({*self.targets.near(view.spans), *self.targets.lookouts})
+        near = sorted({*self.targets.near(view.spans), *self.targets.cut_ends})
         seen = [k for k in near if self._shown(view, k)]
         learned = self._with_view(view, seen)
         notices = []

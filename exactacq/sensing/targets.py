@@ -47,17 +47,17 @@ class Target(NamedTuple):
 class Targets:
     """The targets of every obstacle, in the order of its boundary.
 
-    ``lookouts`` are the ends of those that do not count with their whole boundary, by obstacle; ``cut`` are
-    the scene's obstacles of which not all counts, by their own numbers.
+    ``cut_ends`` are, by obstacle, the two ends of a boundary that a terrain's border cuts; ``cut`` are the
+    scene's obstacles of which not all counts, by their own numbers.
     """
 
     def __init__(
         self,
         of: Sequence[tuple[Target, ...]],
-        lookouts: Mapping[int, Sequence[CutEnd]] | None = None,
+        cut_ends: Mapping[int, Sequence[CutEnd]] | None = None,
         cut: Collection[int] = (),
     ) -> None:
-        self.of, self.lookouts, self.cut = tuple(of), lookouts or {}, cut
+        self.of, self.cut_ends, self.cut = tuple(of), cut_ends or {}, cut
         self.edges = [frozenset(target.edge for target in targets) for targets in self.of]
         self._on: dict[int, list[tuple[int, Target]]] = {}
         for k, targets in enumerate(self.of):
@@ -92,8 +92,8 @@ class Targets:
 
     @classmethod
     def of_components(cls, components: Iterable[Component], table: EdgeTable, range_: Range) -> Targets:
-        """The shores of what a terrain leaves of obstacles, with lookouts where a border cuts them."""
-        of, lookouts, cut = [], {}, set[int]()
+        """The shores of a terrain's components, with their ends where a border cuts them."""
+        of, cut_ends, cut = [], {}, set[int]()
         for component in components:
             first = int(table.first[component.obstacle.index])
             targets = tuple(Target(first + p.edge, p.span, p.is_whole) for p in component.shore)
@@ -101,12 +101,12 @@ class Targets:
                 cut.add(component.obstacle.index)
             if not component.closed:
                 begin, end = targets[0], targets[-1]
-                lookouts[component.index] = (
+                cut_ends[component.index] = (
                     CutEnd(table, range_, begin.edge, begin.span.low, begin.span.start),
                     CutEnd(table, range_, end.edge, end.span.high, end.span.end),
                 )
             of.append(targets)
-        return cls(of, lookouts, cut)
+        return cls(of, cut_ends, cut)
 
     def on(self, edge: int) -> Sequence[tuple[int, Target]]:
         """The obstacles that an edge counts for."""
