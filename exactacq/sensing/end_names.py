@@ -26,7 +26,7 @@ from exactacq.kernel.radial_sweep import Part
 from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.sensing.view_families import End, FreeViews, ViewFamily
+from exactacq.sensing.view_families import FreeViews, LineView, ViewFamily
 from exactacq.visibility.line_balls import line
 from exactacq.visibility.line_families import Sliding
 from exactacq.visibility.place_facts import NOTHING_KNOWN, Hold, PlaceFacts
@@ -159,7 +159,7 @@ class Seen:
                 found[e] = self.spans.intervals(e, new)
         return found
 
-    def pinned(self, end: End, family: ViewFamily, side: int) -> End:
+    def pinned(self, end: LineView, family: ViewFamily, side: int) -> LineView:
         """An extreme view of a family from this place, its other end the view's own point if it is one."""
         e, point = family.edges[1 - side], end.points[1 - side]
         for pin in self._pins(e, point, end, family.free_views):
@@ -167,10 +167,10 @@ class Seen:
             if not _apart(pin[1], end.places[1 - side]):
                 here = end.points[side], end.places[side]
                 (p, u), (q, v) = (here, pin) if side == 0 else (pin, here)
-                return End(end.t, (p, q), (u, v), end.tight)
+                return LineView(end.t, (p, q), (u, v), end.tight)
         return end
 
-    def _pins(self, e: int, point: Point, end: End, free_views: FreeViews | None) -> Iterator[Pin]:
+    def _pins(self, e: int, point: Point, end: LineView, free_views: FreeViews | None) -> Iterator[Pin]:
         """What a point of an edge that is seen along an extreme view may be."""
         if free_views is not None and self._is_here(e, point, end.t, free_views):
             yield self.place, self._rails[e].parameter(self.place)
@@ -249,7 +249,7 @@ class Seen:
             found.update((hold, pin) for hold in self._view.holds(e, end))
         return {hold: pin for hold, pin in found.items() if hold[1] != RANGE or hold[2]}
 
-    def _holds(self, e: int, point: Point, end: End, free_views: FreeViews | None) -> Iterator[Hold]:
+    def _holds(self, e: int, point: Point, end: LineView, free_views: FreeViews | None) -> Iterator[Hold]:
         if end.tight:
             yield e, RANGE, self._onward(e, point)
         if free_views is not None:

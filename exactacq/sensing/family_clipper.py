@@ -14,7 +14,7 @@ from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.line_views import LineViews
 from exactacq.sensing.range_ends import IsAtRange, RangeEnds
-from exactacq.sensing.view_families import End, FreeViews, ViewFamily
+from exactacq.sensing.view_families import FreeViews, LineView, ViewFamily
 from exactacq.visibility.sensor_range import Range
 
 TOP = Real(4)
@@ -81,7 +81,7 @@ class FamilyClipper:
         return self.rails[e].curve
 
     def families(self, free_views: FreeViews) -> list[ViewFamily]:
-        """The parts of a free views that lie within range, as closed families; single views count."""
+        """The parts of some free views that lie within range, as closed families; single views count."""
         found = list(self._ends.within(free_views))
         for k, side in enumerate(free_views.sides):
             if side.start != 0 and getattr(self.curve(side.edge), "full", False):
@@ -108,16 +108,16 @@ class FamilyClipper:
         yield ViewFamily(family.edges, first, seam.placed(k, before), free_views)
         yield ViewFamily(family.edges, seam.placed(k, after), last, free_views)
 
-    def _passes_start(self, free_views: FreeViews, first: End, last: End, k: int) -> bool:
+    def _passes_start(self, free_views: FreeViews, first: LineView, last: LineView, k: int) -> bool:
         """Whether a side passes the start of a full circle, or comes to it from the end."""
         a, b = first.places[k], last.places[k]
         grows = free_views.grows(k)
         if grows is not None:
             return a.compare(b) == (1 if grows else -1)
-        middle = self.views.end(free_views, Real(rational_between(first.t, last.t))).places[k]
+        middle = self.views.view(free_views, Real(rational_between(first.t, last.t))).places[k]
         return not min(a, b) <= middle <= max(a, b)
 
-    def along(self, pin: Pin, run: tuple[Pin, Pin], shown: int) -> Iterator[tuple[End, End]]:
+    def along(self, pin: Pin, run: tuple[Pin, Pin], shown: int) -> Iterator[tuple[LineView, LineView]]:
         """The views along one line from a place to a run on an edge, as far as it is within range."""
         (place, here), (near, far) = pin, run
         if self.range.order(place, near[0]) > 0:
@@ -126,7 +126,7 @@ class FamilyClipper:
             along = far[0] - place
             last = place + along * (self.range.radius / along.norm_sq().sqrt())
             far = last, self.rails[shown].parameter(last)
-        one, other = (End(Real(0), (place, point), (here, u)) for point, u in (near, far))
+        one, other = (LineView(Real(0), (place, point), (here, u)) for point, u in (near, far))
         yield one, other
 
     def clipped(self, family: ViewFamily, side: int, span: Interval) -> ViewFamily | None:
@@ -144,7 +144,9 @@ class FamilyClipper:
         last = self._moved(family, family.last, family.first, side, span)
         return ViewFamily(family.edges, first, last, family.free_views)
 
-    def _moved(self, family: ViewFamily, end: End, other: End, side: int, span: Interval) -> End:
+    def _moved(
+        self, family: ViewFamily, end: LineView, other: LineView, side: int, span: Interval
+    ) -> LineView:
         """An extreme view, moved to the end of an interval if it lies outside; *other* is the other one."""
         place = end.places[side]
         at_low, at_high = place.compare(span.low), place.compare(span.high)
@@ -159,5 +161,5 @@ class FamilyClipper:
             return other.pinned(side, point, place)
         if family.free_views is None:
             points = (point, end.points[1]) if side == 0 else (end.points[0], point)
-            return End(end.t, points, end.places).placed(side, place)
+            return LineView(end.t, points, end.places).placed(side, place)
         return self.views.view_from(family, side, point).placed(side, place)

@@ -18,7 +18,7 @@ from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.end_names import holds
 from exactacq.sensing.leg_views import Share, Shares
 from exactacq.sensing.line_points import Role
-from exactacq.sensing.view_families import End
+from exactacq.sensing.view_families import LineView
 from exactacq.visibility.place_facts import (
     NOTHING_KNOWN,
     Alignment,
@@ -73,7 +73,7 @@ class LegFacts:
         return found.joined(self._shares.leg.facts(table, place))
 
     @cached_property
-    def _ends(self) -> list[tuple[End, Share]]:
+    def _ends(self) -> list[tuple[LineView, Share]]:
         """The extreme views."""
         shares = chain.from_iterable(self._shares.of.values())
         return [(end, share) for share in shares for end in (share.family.first, share.family.last)]

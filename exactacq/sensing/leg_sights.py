@@ -50,7 +50,7 @@ from exactacq.sensing.line_images import bounds
 from exactacq.sensing.line_points import Role
 from exactacq.sensing.own_line import OwnLine
 from exactacq.sensing.straight_way import StraightWay, View
-from exactacq.sensing.view_families import End, ViewFamily
+from exactacq.sensing.view_families import LineView, ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.sensing.way_crossings import WayCrossings
 from exactacq.sensing.way_normals import WayNormals
@@ -288,7 +288,7 @@ class LegSights:
         span = self.leg.span
         return BEFORE if u is span.low else AFTER if u is span.high else bounds(u, self._rail)
 
-    def _keys_at(self, end: End, image: FamilyImage | None) -> list[int]:
+    def _keys_at(self, end: LineView, image: FamilyImage | None) -> list[int]:
         """The keys of an extreme view's line, if it bounds its line family and the leg is straight."""
         if image is None or not isinstance(self.leg.rail.curve, Segment):
             return []

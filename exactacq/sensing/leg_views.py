@@ -30,7 +30,7 @@ from exactacq.sensing.legs import Leg, Place
 from exactacq.sensing.named_pins import NamedPins
 from exactacq.sensing.straight_way import StraightWay, View, view_from_end
 from exactacq.sensing.targets import Targets
-from exactacq.sensing.view_families import End, ViewFamily
+from exactacq.sensing.view_families import LineView, ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
 
 Covers: TypeAlias = "Mapping[int, Cover]"
@@ -147,7 +147,7 @@ class Shares:
             if k in cut_ends
         }
 
-    def _pinned(self, end: End, family: ViewFamily, side: int, leg: Leg) -> End:
+    def _pinned(self, end: LineView, family: ViewFamily, side: int, leg: Leg) -> LineView:
         """An extreme view that begins at an end of the leg, as what is seen from there has its other end."""
         u = end.places[side]
         if u is self.leg.first:

@@ -17,7 +17,7 @@ from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.line_points import LinePoints, Role, Side, along_normal
 from exactacq.sensing.named_pins import NamedPins, PinName
-from exactacq.sensing.view_families import End, FreeViews, SidePin, ViewFamily
+from exactacq.sensing.view_families import FreeViews, LineView, SidePin, ViewFamily
 from exactacq.visibility.line_balls import CurveBalls, Line, line, through
 from exactacq.visibility.line_families import Rolling, Sector, Spokes
 from exactacq.visibility.line_names import Names
@@ -53,8 +53,8 @@ class LineViews:
         """The curve of a number in floats."""
         return curve_image(self.curve(e)) if e == self.way else self.table.curve_images[e]
 
-    def end(self, free_views: FreeViews, t: Real, known: SidePin | None = None) -> End:
-        """The view of a free views at a parameter; the point of one side there may be *known*."""
+    def view(self, free_views: FreeViews, t: Real, known: SidePin | None = None) -> LineView:
+        """The view along the line at a parameter; the point of one side there may be *known*."""
         names: Names = ()
         pin: Pin | None = None
         passed: Passed = ()
@@ -66,7 +66,7 @@ class LineViews:
         other = known[1] if known is not None and known[0] == 1 else None
         one = self.pin(sector, t, here, names, passed) if one is None else one
         other = self.pin(sector, t, there, names, passed) if other is None else other
-        return End(t, (one[0], other[0]), (one[1], other[1]))
+        return LineView(t, (one[0], other[0]), (one[1], other[1]))
 
     def pin(self, sector: Sector, t: Real, side: Side, names: Names, passed: Passed) -> Pin:
         """Where a line meets an edge: the same point as on the same line under another name.
@@ -137,13 +137,15 @@ class LineViews:
             self._balls[e] = CurveBalls(self.curve(e))
         return self._balls[e]
 
-    def view_from(self, family: ViewFamily, side: int, point: Point) -> End:
+    def view_from(self, family: ViewFamily, side: int, point: Point) -> LineView:
         """The view of a family from a point of one of its sides, strictly between its extreme views."""
         assert family.free_views is not None
         late = self._late_view(family, family.free_views, side, point)
         return self._exact_view(family, family.free_views, side, point) if late is None else late
 
-    def _late_view(self, family: ViewFamily, free_views: FreeViews, side: int, point: Point) -> End | None:
+    def _late_view(
+        self, family: ViewFamily, free_views: FreeViews, side: int, point: Point
+    ) -> LineView | None:
         """The view from a point, with numbers made when they are read; None if balls leave it open.
 
         Of the two tangents through a point one is the view. The other one may be the last line of the family,
@@ -168,10 +170,10 @@ class LineViews:
                 one, other = (
                     self.rails[s.edge].parameter(p) for s, p in zip(free_views.sides, points, strict=True)
                 )
-                return End(found, points, (one, other))
+                return LineView(found, points, (one, other))
         return None
 
-    def _exact_view(self, family: ViewFamily, free_views: FreeViews, side: int, point: Point) -> End:
+    def _exact_view(self, family: ViewFamily, free_views: FreeViews, side: int, point: Point) -> LineView:
         """The view from a point, by exact numbers."""
         role = free_views.sides[side].role
         sector = free_views.sector
@@ -193,7 +195,7 @@ class LineViews:
                 places = [
                     self.rails[s.edge].parameter(p) for s, p in zip(free_views.sides, points, strict=True)
                 ]
-                return End(t, points, (places[0], places[1]))
+                return LineView(t, points, (places[0], places[1]))
         # Each point of the plane, but for one that all lines may share, lies on one line of a family on that
         # side of the contact: on one half tangent of a circle, one ray from a corner, one normal. So where
         # the lines meet a side moves along it without turning back, through all places between the extreme

@@ -16,7 +16,7 @@ from exactacq.kernel.clearance import met, met_ahead
 from exactacq.numbers.real import Real
 from exactacq.sensing.end_names import Seen
 from exactacq.sensing.straight_way import StraightWay, View
-from exactacq.sensing.view_families import End, ViewFamily
+from exactacq.sensing.view_families import LineView, ViewFamily
 
 BITS = 256
 """Precision of the balls that propose ties."""
@@ -51,7 +51,7 @@ class OwnLine:
         for e, point in shown:
             if e in self.wanted:
                 place = rails[e].parameter(point)
-                ends = [End(Real(0), (p, point), (u, place)) for p, u in self._within(point)]
+                ends = [LineView(Real(0), (p, point), (u, place)) for p, u in self._within(point)]
                 if ends:
                     yield ViewFamily((self.way.number, e), ends[0], ends[-1])
 

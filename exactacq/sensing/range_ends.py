@@ -30,7 +30,7 @@ from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 from exactacq.sensing.line_points import Role
 from exactacq.sensing.line_views import LineViews
-from exactacq.sensing.view_families import End, FreeViews, SidePin, ViewFamily
+from exactacq.sensing.view_families import FreeViews, LineView, SidePin, ViewFamily
 from exactacq.sensing.view_length import of_length_on
 from exactacq.visibility.chords import of_length
 from exactacq.visibility.line_balls import line
@@ -42,7 +42,7 @@ Candidate: TypeAlias = "tuple[Real, SidePin | None, bool]"
 as the range."""
 
 
-IsAtRange: TypeAlias = "Callable[[FreeViews, End], bool]"
+IsAtRange: TypeAlias = "Callable[[FreeViews, LineView], bool]"
 """Tells whether one of some views is known to be as long as the range."""
 
 
@@ -64,13 +64,13 @@ class RangeEnds:
         self._touched, self._is_known_at_range = touched, at_range
 
     def within(self, free_views: FreeViews) -> Iterator[ViewFamily]:
-        """The parts of a free views that lie within range, as closed families; single views count."""
+        """The parts of some free views that lie within range, as closed families; single views count."""
         edges, views = (free_views.sides[0].edge, free_views.sides[1].edge), self.views
         told, last = (ALL_IN_RANGE, None) if free_views.in_range else self._told(free_views)
         if told == NONE_IN_RANGE:
             return
         if last is not None:
-            kept = views.end(free_views, free_views.low if told == LAST_TOO_LONG else free_views.high)
+            kept = views.view(free_views, free_views.low if told == LAST_TOO_LONG else free_views.high)
             yield ViewFamily(edges, *((kept, last) if told == LAST_TOO_LONG else (last, kept)), free_views)
             return
         low, high = (self._extreme(free_views, t) for t in (free_views.low, free_views.high))
@@ -79,7 +79,7 @@ class RangeEnds:
             return
         ends = [low, *self._at_range(free_views, low, high), high]
         inside = [self._is_inside(free_views, rational_between(a.t, b.t)) for a, b in pairwise(ends)]
-        begin: End | None = None
+        begin: LineView | None = None
         for k, end in enumerate(ends):
             before, after = k > 0 and inside[k - 1], k < len(inside) and inside[k]
             if after and begin is None:
@@ -91,9 +91,9 @@ class RangeEnds:
             elif not before and not after and self._order(free_views, end) <= 0:
                 yield ViewFamily(edges, end, end, free_views)
 
-    def _extreme(self, free_views: FreeViews, t: Real) -> End:
+    def _extreme(self, free_views: FreeViews, t: Real) -> LineView:
         """The first or the last view."""
-        end = self.views.end(free_views, t)
+        end = self.views.view(free_views, t)
         is_known = self._is_known_at_range is not None and self._is_known_at_range(free_views, end)
         return end.tightened() if is_known else end
 
@@ -106,7 +106,7 @@ class RangeEnds:
 
     # -- by floats -----------------------------------------------------------------------------------
 
-    def _told(self, free_views: FreeViews) -> tuple[int, End | None]:
+    def _told(self, free_views: FreeViews) -> tuple[int, LineView | None]:
         """Which views floats find in range; the last one of them if some are and some are not."""
         if not free_views.sector.is_rational:
             return UNSURE, None
@@ -137,7 +137,7 @@ class RangeEnds:
         far = next(edge for role, edge in roles.items() if role is not Role.CONTACT)
         return isinstance(free_views.sector, Rolling | Spokes) or isinstance(self.views.curve(far), Arc)
 
-    def _late_last(self, free_views: FreeViews, t: arb) -> End:
+    def _late_last(self, free_views: FreeViews, t: arb) -> LineView:
         """The last view in range, along a line in a ball: its numbers are made when they are read."""
         at, exact, points = line(free_views.sector, t), cache(partial(self._last, free_views)), []
         for k, side in enumerate(free_views.sides):
@@ -150,18 +150,18 @@ class RangeEnds:
             self.views.rails[side.edge].parameter(point)
             for side, point in zip(free_views.sides, points, strict=True)
         )
-        return End(Real.late(t, lambda: exact().t), (points[0], points[1]), (one, other), tight=True)
+        return LineView(Real.late(t, lambda: exact().t), (points[0], points[1]), (one, other), tight=True)
 
-    def _last(self, free_views: FreeViews) -> End:
+    def _last(self, free_views: FreeViews) -> LineView:
         """The one view between the extreme ones that is as long as the range."""
-        ends = (self.views.end(free_views, t) for t in (free_views.low, free_views.high))
+        ends = (self.views.view(free_views, t) for t in (free_views.low, free_views.high))
         found = self._at_range(free_views, *ends)
         end = found[0] if len(found) == 1 else next(e for e in found if not self.range.order(*e.points))
         return end.tightened()
 
     # -- all views that may be as long as the range, exactly -----------------------------------------
 
-    def _at_range(self, free_views: FreeViews, low: End, high: End) -> list[End]:
+    def _at_range(self, free_views: FreeViews, low: LineView, high: LineView) -> list[LineView]:
         """The views strictly between the extreme ones that may be as long as the range, in order."""
         found = [
             at
@@ -176,10 +176,10 @@ class RangeEnds:
             else:
                 t, pin, is_tight = distinct[-1]
                 distinct[-1] = t, at[1] if pin is None else pin, is_tight or at[2]
-        ends = ((self.views.end(free_views, t, known), is_tight) for t, known, is_tight in distinct)
+        ends = ((self.views.view(free_views, t, known), is_tight) for t, known, is_tight in distinct)
         return [end.tightened() if is_tight else end for end, is_tight in ends if self._may_be_at_range(end)]
 
-    def _order(self, free_views: FreeViews, end: End) -> int:
+    def _order(self, free_views: FreeViews, end: LineView) -> int:
         """-1, 0 or 1 as a view is shorter than the range, as long or longer.
 
         It is as long if its far point was made where the range is reached along the lines.
@@ -194,10 +194,10 @@ class RangeEnds:
                 return 0
         return self.range.order(*end.points)
 
-    def _may_be_at_range(self, end: End) -> bool:
+    def _may_be_at_range(self, end: LineView) -> bool:
         return not self.range.clear_order(*map(balls, end.points))
 
-    def _candidates(self, free_views: FreeViews, low: End, high: End) -> Iterator[Candidate]:
+    def _candidates(self, free_views: FreeViews, low: LineView, high: LineView) -> Iterator[Candidate]:
         """Where views may be as long as the range."""
         sector, (one, other) = free_views.sector, free_views.sides
         roles = {side.role: side.edge for side in (one, other)}
@@ -239,7 +239,7 @@ class RangeEnds:
                 is_told = self._is_towards(sector, t, far.role, pin[0])
                 yield t, (k, pin) if is_told else None, is_told and _meets_rim_once(sector)
 
-    def _is_flat(self, free_views: FreeViews, low: End, high: End, t: Real) -> bool:
+    def _is_flat(self, free_views: FreeViews, low: LineView, high: LineView, t: Real) -> bool:
         """Whether the view at one of two ends is as long as the range, and its length stationary there.
 
         So it is if the line touches its circle where it crosses the way, and meets the other side along that
@@ -306,7 +306,7 @@ def _meets_rim_once(sector: Sector) -> bool:
     return not isinstance(sector, Sliding) and (not isinstance(sector, Spokes) or sector.outward)
 
 
-def _point_of(view: Callable[[], End], k: int) -> Point:
+def _point_of(view: Callable[[], LineView], k: int) -> Point:
     """The point of a view on its side k."""
     return view().points[k]
 

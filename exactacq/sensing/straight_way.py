@@ -24,7 +24,7 @@ from exactacq.sensing.legs import HaltPlace, Leg
 from exactacq.sensing.line_family import rational_line
 from exactacq.sensing.line_images import bounds
 from exactacq.sensing.line_points import Role
-from exactacq.sensing.view_families import End, FreeViews
+from exactacq.sensing.view_families import FreeViews, LineView
 from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.visibility.line_names import Names
 
@@ -173,7 +173,7 @@ def view_from_end(
     return view(end, own, facts)
 
 
-def _is_at_range(table: EdgeTable, halts: Iterable[HaltPlace], free_views: FreeViews, view: End) -> bool:
+def _is_at_range(table: EdgeTable, halts: Iterable[HaltPlace], free_views: FreeViews, view: LineView) -> bool:
     """Whether an extreme view of a family from where a robot halted is known to be as long as the range."""
     for halt in halts:
         for k, point in enumerate(view.points):

@@ -6,7 +6,7 @@ normal to e, or it starts at an end of e. Hence the tangent lines of corners and
 edges and the rays from vertices, families with one parameter each, contain every shortest view: together
 they give all that e sees of f, and, with the roles exchanged, the part of e from which anything of f is
 in sight. A `FreeViews` is such a family before the range is considered; `FamilyClipper.families` restricts it
-to the range, and the results are `ViewFamily` objects.
+to the range, and the results are `ViewFamily` objects. A `LineView` is one view of either.
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ SidePin: TypeAlias = "tuple[int, Pin]"
 
 
 @dataclass(slots=True)
-class End:
-    """One view of a family: line parameter, the two end points with their rail parameters.
+class LineView:
+    """A view along one line: the line's parameter ``t``, both end points, and their parameters on the rails.
 
     ``tight`` if it is known to be as long as the range, because the views on one side of it are longer.
     """
@@ -45,19 +45,19 @@ class End:
         """Whether the view is shorter than the range."""
         return not self.tight and range_.order(*self.points) < 0
 
-    def tightened(self) -> End:
+    def tightened(self) -> LineView:
         """The view, marked as exactly as long as the range."""
-        return End(self.t, self.points, self.places, tight=True)
+        return LineView(self.t, self.points, self.places, tight=True)
 
-    def placed(self, k: int, place: Real) -> End:
+    def placed(self, k: int, place: Real) -> LineView:
         """The view with the parameter *place* on side k."""
         places = (place, self.places[1]) if k == 0 else (self.places[0], place)
-        return End(self.t, self.points, places, self.tight)
+        return LineView(self.t, self.points, places, self.tight)
 
-    def pinned(self, k: int, point: Point, place: Real) -> End:
+    def pinned(self, k: int, point: Point, place: Real) -> LineView:
         """The view with *point* and its parameter *place* on side k."""
         points = (point, self.points[1]) if k == 0 else (self.points[0], point)
-        return End(self.t, points, self.places, self.tight).placed(k, place)
+        return LineView(self.t, points, self.places, self.tight).placed(k, place)
 
 
 @dataclass(slots=True)
@@ -111,15 +111,15 @@ class FreeViews:
 class ViewFamily:
     """A family of free views within range, from one extreme view to the other; both ends move monotonically.
 
-    Without a free views the family has one fixed end, and all views lie on one line.
+    Without ``free_views`` it has one fixed end, and all its views lie on one line.
     """
 
     edges: tuple[int, int]
-    first: End
-    last: End
+    first: LineView
+    last: LineView
     free_views: FreeViews | None = None
 
-    def ends_on(self, k: int) -> tuple[End, End]:
+    def ends_on(self, k: int) -> tuple[LineView, LineView]:
         """The extreme views with the lower and the higher parameter of side k."""
         grows = None if self.free_views is None else self.free_views.grows(k)
         if grows is None:
