@@ -1,4 +1,4 @@
-"""The views along single lines of a family: their end points, made late, and found again by name."""
+"""The views of families, line by line: their end points, made late, and found again by name."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from exactacq.visibility.rotational_sweep import Passed
 
 
 class LineViews:
-    """Makes the views of families along single lines; holds the rails of the scene's edges by number.
+    """Makes the views of families, line by line; holds the rails of the scene's edges by number.
 
     *base* are those that it adds a way to.
     """

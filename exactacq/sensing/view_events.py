@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
+from itertools import groupby
 from typing import Any
 
 from flint import fmpq
@@ -80,23 +81,23 @@ class SweepCell:
     leg: int
     begin: Place
     end: Place
-    views: LegViews
+    swept: SweptLeg
     scene: Scene
 
     @property
     def low(self) -> Real:
         """The lesser parameter."""
-        return self.begin[0] if self.views.leg.ahead else self.end[0]
+        return self.begin[0] if self.swept.leg.ahead else self.end[0]
 
     @property
     def high(self) -> Real:
         """The greater parameter."""
-        return self.end[0] if self.views.leg.ahead else self.begin[0]
+        return self.end[0] if self.swept.leg.ahead else self.begin[0]
 
     @property
     def rail(self) -> Rail:
         """What the parameters belong to."""
-        return self.views.leg.rail
+        return self.swept.leg.rail
 
     def point(self, u: object) -> Point:
         """The place at a rational parameter."""
@@ -105,9 +106,9 @@ class SweepCell:
     @cached_property
     def map(self) -> Map:
         """The map of a robot that has walked this cell only: all that is seen from it, its ends included."""
-        shares, leg = self.views.shares, self.views.leg
+        shares, leg = self.swept.shares, self.swept.leg
         for u, place in (self.begin, self.end):
-            self.views.facts.tell(u, place)
+            self.swept.facts.tell(u, place)
         part = leg.between(self.begin, self.end)
         rails = shares.complex.clipper.rails
         return Map(self.scene.obstacles, shares.targets, rails, shares.cut(part).taught({}))
@@ -120,7 +121,7 @@ class SweepCell:
         """
         touched: list[Point] = []
         found: list[tuple[Point, Point | None]] = []
-        for share in self.views.sights.bounding(Real(rational(u)), self.point(u)):
+        for share in self.swept.sights.bounding(Real(rational(u)), self.point(u)):
             free_views = share.family.free_views
             assert free_views is not None, "what bounds a view touches something"
             near, seen = free_views.sector.touch(share.family.first.t)[0], share.shown.start
@@ -132,7 +133,7 @@ class SweepCell:
         return [*found, *((near, None) for near in _distinct(touched) if near not in past)]
 
 
-class LegViews:
+class SweptLeg:
     """The views along one leg: where they change, and all that they show, each made when it is asked for."""
 
     def __init__(self, sensor: Sensor, leg: Leg) -> None:
@@ -172,7 +173,7 @@ class LegViews:
                 change = self._change(turn, comes=(turn.kind == BEGINS) == leg.ahead)
             yield self._event(change, turn.edge, number, u, place)
 
-    def events_at_start(self, before: LegViews, number: int) -> Iterator[SweepEvent]:
+    def events_at_start(self, before: SweptLeg, number: int) -> Iterator[SweepEvent]:
         """The events where the leg of that number begins, after another one."""
         gone, here, own = before.sights.at_end(True), self.sights.at_end(False), self.leg.edge
         for edge in sorted({*gone, *here}):
@@ -204,7 +205,7 @@ class Sweep:
         self.scene = scene
         self._made_of = piece, sensor.range.radius
         legs = legs_of(sensor.table, sensor.rails, piece.obstacle, piece.curve)
-        self._legs = [LegViews(sensor, leg) for leg in legs]
+        self._legs = [SweptLeg(sensor, leg) for leg in legs]
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Without the sensing, which is repeated: it knows places by identity."""
@@ -221,26 +222,27 @@ class Sweep:
         found: list[SweepEvent] = []
         piece, _ = self._made_of
         with deciding("where the view changes on the way from {} to {}", piece.start, piece.end):
-            for k, views in enumerate(self._legs):
+            for k, swept in enumerate(self._legs):
                 if k:
-                    found += views.events_at_start(self._legs[k - 1], k)
-                found += views.events(k)
+                    found += swept.events_at_start(self._legs[k - 1], k)
+                found += swept.events(k)
         return tuple(found)
 
     @cached_property
     def cells(self) -> tuple[SweepCell, ...]:
         """The stretches between events; at least one for each leg."""
-        return tuple(cell for k in range(len(self._legs)) for cell in self._cells(k))
+        on = {k: [*events] for k, events in groupby(self.events, lambda event: event.leg)}
+        return tuple(cell for k in range(len(self._legs)) for cell in self._cells(k, on.get(k, [])))
 
-    def _cells(self, k: int) -> Iterator[SweepCell]:
-        views = self._legs[k]
-        leg = views.leg
+    def _cells(self, k: int, events: list[SweepEvent]) -> Iterator[SweepCell]:
+        """The cells of the leg of that number, from its events."""
+        swept, leg = self._legs[k], self._legs[k].leg
         begin: Place = leg.first, leg.start
-        for event in self.events:
-            if event.leg == k and event.u is not begin[0]:
-                yield SweepCell(k, begin, (event.u, event.place), views, self.scene)
+        for event in events:
+            if event.u is not begin[0]:
+                yield SweepCell(k, begin, (event.u, event.place), swept, self.scene)
                 begin = event.u, event.place
-        yield SweepCell(k, begin, (leg.last, leg.end), views, self.scene)
+        yield SweepCell(k, begin, (leg.last, leg.end), swept, self.scene)
 
 
 def sweep(scene: Scene, curve: Curve, radius: object = None, *, obstacle: int | None = None) -> Sweep:
