@@ -156,7 +156,7 @@ class LegSights:
     def _on_edge(self, edge: int) -> Iterator[Sight]:
         complex_ = self.complex
         extents = complex_.sighting_extents(edge) + complex_.extents_of_rays(edge)
-        yield from self._told(extents, [], complex_.table.curve_images[edge])
+        yield from self._sights_in(extents, [], complex_.table.curve_images[edge])
 
     def _on_way(self) -> Iterator[Sight]:
         complex_, leg, way, wanted = self.complex, self.leg, self._way, self._near
@@ -165,7 +165,7 @@ class LegSights:
         images = [image for families in near for image in families.images]
         self._crossings = WayCrossings(way, [images], wanted)
         self._crossing = list(self._crossings)
-        yield from self._told(
+        yield from self._sights_in(
             self._crossings.extents(), [image for image, _ in self._crossing], curve_image(leg.rail.curve)
         )
         self._normals = WayNormals(way, wanted, self._view)
@@ -183,7 +183,9 @@ class LegSights:
         """The edges that may be seen from the leg."""
         return frozenset(self.complex.table.lit(self.leg.spots, self.complex.range.above))
 
-    def _told(self, extents: list[Extent], crossing: list[FamilyImage], curve: CurveImage) -> Iterator[Sight]:
+    def _sights_in(
+        self, extents: list[Extent], crossing: list[FamilyImage], curve: CurveImage
+    ) -> Iterator[Sight]:
         """The sights that extents tell of, *crossing* as for `exactacq.kernel.leg_changes.sights`."""
         found, left = sights(by_source(extents), crossing, self._span, curve, self._scene)
         yield from found

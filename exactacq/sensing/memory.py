@@ -169,7 +169,7 @@ class Memory:
         self._sensor = Sensor(self._table, range_, targets)
         self.reports: list[Report] = []
         # The number of reports before every piece, and of all.
-        self._told: list[int] = []
+        self._report_counts: list[int] = []
         self._looked: tuple[Piece | None, Piece | None, Ahead | None] = None, None, None
         self._halt: HaltPlace | None = None
         self._walked: set[tuple[object, object]] = set()
@@ -399,8 +399,8 @@ class Memory:
         k, u = found
         known = Moment(self._history, before + k, {})
         if legs[k].order(u, legs[k].first) > 0:
-            told = self._told_at(count, place)
-            acquired = [at.obstacle for at in told if at.kind is EventKind.ACQUIRE]
+            reports = self._reports_at(count, place)
+            acquired = [report.obstacle for report in reports if report.kind is EventKind.ACQUIRE]
             newer = self._sensor.known_within(legs[k], u, place, known, acquired)
             known = Moment(self._history, before + k, newer)
         return self._map(known)
@@ -436,28 +436,28 @@ class Memory:
     def _leg_at(self, count: int, place: Point) -> tuple[int, Real] | None:
         """The number of a leg of a piece on which a place is, and its parameter there."""
         # The last report there: where two legs meet there may be one of each.
-        told = self._told_at(count, place)
+        last = next(reversed(self._reports_at(count, place)), None)
         for k, leg in enumerate(self._legs[count]):
-            if told and k < told[-1].leg:
+            if last is not None and k < last.leg:
                 continue
-            u = told[-1].u if told else leg.rail.parameter(place)
+            u = leg.rail.parameter(place) if last is None else last.u
             if leg.span.low.compare(u) <= 0 and leg.span.high.compare(u) >= 0:
                 return k, u
         return None
 
-    def told(self, count: int) -> int:
+    def report_count(self, count: int) -> int:
         """The number of reports from the start and from the first *count* pieces; 0 before it has begun."""
-        return self._told[count] if self._told else 0
+        return self._report_counts[count] if self._report_counts else 0
 
     def _reported(self, reports: list[Report]) -> list[Report]:
         self.reports += reports
-        self._told.append(len(self.reports))
+        self._report_counts.append(len(self.reports))
         return reports
 
-    def _told_at(self, count: int, place: Point) -> list[Report]:
+    def _reports_at(self, count: int, place: Point) -> list[Report]:
         """What was reported from a place of a piece."""
-        reports = self.reports[self._told[count] : self._told[count + 1]]
-        return [at for at in reports if at.place is place]
+        reports = self.reports[self._report_counts[count] : self._report_counts[count + 1]]
+        return [report for report in reports if report.place is place]
 
     def _map(self, covers: Covers) -> Map:
         return Map(self.bodies, self._sensor.targets, self._sensor.rails, covers)

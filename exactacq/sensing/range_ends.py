@@ -66,7 +66,7 @@ class RangeEnds:
     def within(self, free_views: FreeViews) -> Iterator[ViewFamily]:
         """The parts of some free views that lie within range, as closed families; single views count."""
         edges, views = (free_views.sides[0].edge, free_views.sides[1].edge), self.views
-        told, last = (ALL_IN_RANGE, None) if free_views.in_range else self._told(free_views)
+        told, last = (ALL_IN_RANGE, None) if free_views.in_range else self._by_floats(free_views)
         if told == NONE_IN_RANGE:
             return
         if last is not None:
@@ -106,7 +106,7 @@ class RangeEnds:
 
     # -- by floats -----------------------------------------------------------------------------------
 
-    def _told(self, free_views: FreeViews) -> tuple[int, LineView | None]:
+    def _by_floats(self, free_views: FreeViews) -> tuple[int, LineView | None]:
         """Which views floats find in range; the last one of them if some are and some are not."""
         if not free_views.sector.is_rational:
             return UNSURE, None

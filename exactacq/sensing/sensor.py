@@ -129,7 +129,7 @@ class Sensor:
             return Ahead(leg, [], {}, None)
         with deciding("what is seen on the way from {} to {}", leg.start, leg.end):
             shares = Shares(self.complex, self.targets, leg, obstacles, self._view, self._known)
-            return Ahead(leg, *self._told(shares, retraced), shares)
+            return Ahead(leg, *self._outcome(shares, retraced), shares)
 
     def upto(self, ahead: Ahead, leg: Leg, retraced: bool = False) -> Ahead:
         """What moving along a leg will tell that is the first part of one that was looked along.
@@ -148,7 +148,8 @@ class Sensor:
             learned = {} if retraced else shares.taught(self.covers, self._known, is_here)
         return Ahead(leg, notices, learned, shares)
 
-    def _told(self, shares: Shares, retraced: bool) -> tuple[list[Notice], dict[int, Cover]]:
+    def _outcome(self, shares: Shares, retraced: bool) -> tuple[list[Notice], dict[int, Cover]]:
+        """The reports of a leg in order, and the covers that grow along it."""
         leg = shares.leg
         learned: dict[int, Cover] = {}
         if not retraced:

@@ -83,8 +83,8 @@ class Observer:
         self._trace = Trace(self._walker)
         numbering = Numbering(lambda: table.hulls if ground is None else _hulls(table, ground))
         self._seen = Sightings(self._walker, numbering)
-        # The last point of a boundary that the robot told, on which piece of it this lies, and whose it is.
-        self._told: tuple[Point, Curve | None, int] | None = None
+        # The last answer of `nearest`: the point, on which piece of the boundary it lies, and whose it is.
+        self._last_nearest: tuple[Point, Curve | None, int] | None = None
         self._lap: Lap | None = None
         self._paths = KnownPaths(self._walker, self._seen)
         self._moves, self._most = 0, inf
@@ -251,7 +251,7 @@ class Observer:
         def order(a: tuple[Point, Curve | None, int], b: tuple[Point, Curve | None, int]) -> int:
             return distance_sq(a[0], here).compare(distance_sq(b[0], here)) or a[2] - b[2]
 
-        self._told = point, _, k = min(found, key=cmp_to_key(order))
+        self._last_nearest = point, _, k = min(found, key=cmp_to_key(order))
         return self._own[k], point
 
     def news(self, route: Route | None = None) -> frozenset[int]:
@@ -291,7 +291,8 @@ class Observer:
             raise MoveError("a route begins where the robot is: let its first point be robot.position")
         places[1:] = map(self._goal, places[1:])
         pieces = [Segment(p, q) for p, q in pairwise([here, *places[1:]]) if p != q]
-        end_on = self._told[1] if self._told is not None and self._told[0] is places[-1] else None
+        last = self._last_nearest
+        end_on = last[1] if last is not None and last[0] is places[-1] else None
         return Route(pieces, self._walker, here, self._blocking.crossings(pieces, end_on))
 
     def way_back(self, route: Route) -> Route:
@@ -447,8 +448,9 @@ class Observer:
 
     def _node_at(self, place: Point) -> Node:
         """The obstacle on whose boundary a place lies, if there is one."""
-        if self._told is not None and self._told[0] is place:
-            return self._told[2]
+        last = self._last_nearest
+        if last is not None and last[0] is place:
+            return last[2]
         k = obstacle_at(self._table, place)
         if k is None or self._ground is None:
             return START if k is None else k

@@ -45,8 +45,8 @@ class Route:
         self._of, self._start, self._at, self._ends_at = _of, _start, _of.at, _ends_at
         self.pieces, self._crossings = tuple(pieces), tuple(_crossings)
         # Where the robot left it last, the piece that it is on or comes to, the crossing point that it comes
-        # to, and the one that it was to come to when news were asked for.
-        self._place, self._piece, self._next, self._told = _start, 0, 0, 0
+        # to, and the one that it was to come to when news were last asked for.
+        self._place, self._piece, self._next, self._news_from = _start, 0, 0, 0
         self._numbers: dict[int, list[int]] = {}
         for n, crossing in enumerate(self._crossings):
             self._numbers.setdefault(crossing.component.index, []).append(n)
@@ -116,8 +116,8 @@ class Route:
 
     def _passed(self) -> set[tuple[int, int]]:
         """The crossing points left behind since this was asked last: obstacle and number of each."""
-        passed = {(c.component.index, c.number) for c in self._crossings[self._told : self._next]}
-        self._told = self._next
+        passed = {(c.component.index, c.number) for c in self._crossings[self._news_from : self._next]}
+        self._news_from = self._next
         return passed
 
     def _back(self, here: Point) -> Route:

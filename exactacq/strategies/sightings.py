@@ -62,7 +62,7 @@ class Sightings:
 
     def unvisited_after(self, pieces: int, visits: int) -> tuple[int, ...]:
         """The obstacles seen after so many pieces of the path that were not among the first visits."""
-        numbers, count = self.numbers, self._walker.memory.told(pieces)
+        numbers, count = self.numbers, self._walker.memory.report_count(pieces)
         visited = {numbers.own[k] for k in islice(self._walker.visited, visits)}
         return tuple(i for i in range(bisect_left(self._first, count)) if i not in visited)
 

@@ -70,7 +70,7 @@ class Trace:
         memory, told = self._walker.memory, 0
         for number, (after, mark) in enumerate(self._marks):
             # It had not looked around yet when it was put at the start.
-            seen = memory.told(after) if number else 0
+            seen = memory.report_count(after) if number else 0
             yield from (report.event(path) for report in memory.reports[told:seen])
             yield mark(path=path)
             told = seen
