@@ -136,7 +136,7 @@ class _Candidates:
         fixed = [
             self.walk.start,
             Real(self.walk.stop),
-            *(f.shape.y for f in stands if isinstance(f.shape, Point)),
+            *(stand.place.y for stand in stands),
         ]
         proposals = Proposals(
             self.pieces,
@@ -260,7 +260,7 @@ class _Candidates:
             if walk.including or spare.sign() <= 0:
                 yield Point(walk.x, walk.start), q
                 continue
-            after = [(stand.shape.y - walk.start) * walk.sense for stand in stands]  # type: ignore[union-attr]
+            after = [(stand.place.y - walk.start) * walk.sense for stand in stands]
             step = min([spare, *(y for y in after if y.sign() > 0)]) * fmpq(1, 2)
             yield Point(walk.x, walk.start + step * walk.sense), q
 
@@ -286,8 +286,7 @@ class _Candidates:
                         p = Point(walk.x, curve.center.y + rise)
                         yield from ((p, q) for q in _tangent_points(p, curve) if curve.contains(q))
             for stand in stands:
-                assert isinstance(stand.shape, Point)
-                p = stand.shape
+                p = stand.place
                 found = contacts(curve, Arc.circle(p, walk.radius**2))
                 yield from ((p, q) for contact in found for q in (contact.start, contact.end))
         for q in self.dots:

@@ -178,6 +178,12 @@ class KnownFeature:
     on: tuple[int, ...] = ()
     """The pieces it lies on."""
 
+    @property
+    def place(self) -> Point:
+        """The point that it is; an arc is none."""
+        assert isinstance(self.shape, Point), "arcs are no places"
+        return self.shape
+
 
 def features_of(pieces: Pieces, goals: set[int]) -> list[KnownFeature]:
     """Corners, lone ends and convex arcs; *goals* are the pieces looked for."""
@@ -287,10 +293,8 @@ class Gaps:
     def closed(self) -> Gaps:
         """The collected cells as arrays ``touch``, ``low``, ``high``, ``tiny``; call it once, at the end."""
         self.touch = np.concatenate([np.empty(0, dtype=np.intp), *self._touch])
-        self.low, self.high = (
-            np.concatenate([np.empty(0), *self._low]),
-            np.concatenate([np.empty(0), *self._high]),
-        )
+        self.low = np.concatenate([np.empty(0), *self._low])
+        self.high = np.concatenate([np.empty(0), *self._high])
         self.tiny = np.concatenate([np.empty(0, dtype=bool), *self._tiny])
         self._offsets = np.concatenate(([0], np.cumsum([len(t) for t in self._touch]))).astype(np.intp)
         return self

@@ -418,10 +418,8 @@ class Proposals:
         """
         if not cells:
             return []
-        touch, target, branch = (
-            np.array([getattr(c, name) for c in cells]) for name in ("touch", "target", "branch")
-        )
-        low, high = np.array([c.low for c in cells]), np.array([c.high for c in cells])
+        touch, target, branch = np.array([(c.touch, c.target, c.branch) for c in cells]).T
+        low, high = np.array([(c.low, c.high) for c in cells]).T
         parent = np.arange(len(cells))
         samples: dict[int, float] = {}
         close: set[int] = set()
@@ -432,12 +430,9 @@ class Proposals:
             low, high, parent = low[keep], high[keep], parent[keep]
             middle = (low + high) / 2
             there = self._lengths(touch[parent], middle, target[parent], branch[parent])
-            for k, y in zip(
-                parent[there < self.radius - 10 * self.slack],
-                middle[there < self.radius - 10 * self.slack],
-                strict=True,
-            ):
-                samples.setdefault(int(k), float(y))
+            within = there < self.radius - 10 * self.slack
+            for k, y in zip(parent[within].tolist(), middle[within].tolist(), strict=True):
+                samples.setdefault(k, y)
             small = high - low < 1e4 * self.slack
             close.update(parent[small].tolist())
             go = ~small & ~np.isin(parent, [*samples, *close])
