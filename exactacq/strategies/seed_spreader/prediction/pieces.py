@@ -57,6 +57,16 @@ def unit(a: Floats) -> Floats:
     return scaled
 
 
+def chords(way: Floats, offset: Floats, radius: Floats) -> tuple[Floats, Floats, Floats]:
+    """Where lines with unit directions pass circles, whose centres lie at offsets from a place of each.
+
+    How far along the line the centre's foot lies, how far to the left the centre lies, and half the length of
+    the chord: 0 if the line misses the circle.
+    """
+    foot, height = dot(offset, way), cross(way, offset)
+    return foot, height, np.sqrt(np.maximum(radius * radius - height * height, 0.0))
+
+
 class Pieces:
     """Known pieces of boundaries as flat arrays, and where they join.
 

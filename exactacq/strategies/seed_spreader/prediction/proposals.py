@@ -31,6 +31,7 @@ from exactacq.strategies.seed_spreader.prediction.pieces import (
     Lines,
     Pieces,
     ProposedLine,
+    chords,
     cross,
     dot,
     enters,
@@ -285,14 +286,13 @@ class Proposals:
         )
         straight = np.where(miss, np.nan, t)
         radius = pieces.radius[k]
-        middle, height = dot(pieces.center[k] - p, way), cross(way, pieces.center[k] - p)
-        half = np.sqrt(np.maximum(radius * radius - height * height, 0.0))
+        middle, height, half = chords(way, pieces.center[k] - p, radius)
         shake = error + np.minimum(error * radius / np.maximum(half, TINY), np.sqrt(2 * error * radius))
         hits, blurs = [], []
         for sign in (-1.0, 1.0):
             root = middle + sign * half
-            place2 = p + root[..., None] * way
-            side = cross(along, place2 - pieces.start[k]) * pieces.sense[k]
+            on_circle = p + root[..., None] * way
+            side = cross(along, on_circle - pieces.start[k]) * pieces.sense[k]
             wide = length > 1e-6 * radius
             miss = (np.abs(height) > radius + error + self.slack) | (
                 ~pieces.full[k] & wide & (side > shake + self.slack)
@@ -379,20 +379,19 @@ class Proposals:
         place = np.clip(cross(pieces.start[k] - p, way) / np.where(flat, 1.0, sine), 0.0, length)
         straight = pieces.start[k] + place[:, None] * along
         radius = pieces.radius[k]
-        middle, height = dot(pieces.center[k] - p, way), cross(way, pieces.center[k] - p)
-        half = np.sqrt(np.maximum(radius * radius - height * height, 0.0)) * (2 * branch - 1)
+        middle, height, half = chords(way, pieces.center[k] - p, radius)
         is_straight = pieces.sense[k] == 0
-        place2 = p + (middle + half)[:, None] * way
+        on_circle = p + (middle + half * (2 * branch - 1))[:, None] * way
         sure = real & np.where(is_straight, ~flat, np.abs(height) <= radius * (1 + 1e-9))
-        return np.where(is_straight[:, None], straight, place2), sure
+        return np.where(is_straight[:, None], straight, on_circle), sure
 
     def _least(self, touch: Ints, low: Floats, high: Floats, target: Ints, branch: Ints) -> Floats:
         """Lower bounds of the lengths of cells' lines of sight, from tangents' lengths on both sides."""
         center, square = self.center[touch], self.turn[touch] ** 2
         y = np.clip(center[:, 1], low, high)
         before = norm(self._places(y) - center) ** 2 - square
-        one, sure = self._ends(touch, low, target, branch)
-        two, sure2 = self._ends(touch, high, target, branch)
+        one, is_one_sure = self._ends(touch, low, target, branch)
+        two, is_two_sure = self._ends(touch, high, target, branch)
         chord = two - one
         size = norm(chord)
         u = np.clip(dot(center - one, chord) / np.maximum(size * size, TINY), 0.0, 1.0)
@@ -406,7 +405,7 @@ class Proposals:
         whole = self.pieces.end[k] - self.pieces.start[k]
         v = dot(center - self.pieces.start[k], whole) / np.maximum(dot(whole, whole), TINY)
         foot = norm(center - self.pieces.start[k] - np.clip(v, 0.0, 1.0)[:, None] * whole)
-        fine = sure & sure2 & (is_straight | small)
+        fine = is_one_sure & is_two_sure & (is_straight | small)
         beyond = np.where(fine, np.maximum(off - bulge, 0.0), np.where(is_straight, foot, rough))
         after = beyond * beyond - square
         return np.asarray(np.sqrt(np.maximum(before, 0.0)) + np.sqrt(np.maximum(after, 0.0)))
