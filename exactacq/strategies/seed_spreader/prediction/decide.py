@@ -47,7 +47,7 @@ from exactacq.strategies.seed_spreader.prediction.pieces import (
 from exactacq.strategies.seed_spreader.prediction.proposals import Proposals
 from exactacq.strategies.seed_spreader.prediction.sight import (
     Sights,
-    VerticalWay,
+    VerticalWalk,
     growth,
     unique,
 )
@@ -85,7 +85,7 @@ def sees_later(
     """
     if not including and Real(stop).compare(start) == 0:
         return False
-    walk = VerticalWay(x, start, stop, radius, including)
+    walk = VerticalWalk(x, start, stop, radius, including)
     pieces = [*targets, *(Segment(point, point) for point in points)]
     if Horizon(x, walk.sense > 0, pieces, radius).order(start) < (0 if including else 1):
         # Whatever is in the way: nothing is in reach.
@@ -109,7 +109,7 @@ class _Candidates:
 
     def __init__(
         self,
-        walk: VerticalWay,
+        walk: VerticalWalk,
         known: Sequence[Curve],
         count: int,
         dots: Sequence[Point],

@@ -231,9 +231,11 @@ def enters(leave: Floats, back: Floats, way: Floats, margin: Floats) -> Flags:
 
 @dataclass
 class Lines:
-    """Lines through two features, numbers i and j of the list of touches; j is -1 for the tangent, at a point
-    i, of a ``piece``. They meet the walk at ``y``, with that error; ``bend`` is the error
-    of the unit direction ``way``."""
+    """Lines of two touches, i and j by their numbers; j is -1 for the tangent of a ``piece`` at its point i.
+
+    A touch is a point, or an arc on one of its two sides (see `Proposals`). The lines meet the walk at
+    ordinate ``y``, up to ``error``; ``tilt`` bounds the error of their unit direction ``way``.
+    """
 
     i: Ints
     j: Ints
@@ -241,7 +243,7 @@ class Lines:
     y: Floats
     error: Floats
     way: Floats
-    bend: Floats
+    tilt: Floats
 
     def __getitem__(self, part: Any) -> Lines:
         return Lines(*(getattr(self, name)[part] for name in self.__dataclass_fields__))
@@ -249,7 +251,10 @@ class Lines:
 
 @dataclass(frozen=True)
 class ProposedLine:
-    """A proposed line of sight: along a line to a target, or to a feature (target -1), or of any line."""
+    """A line of sight along the line of i, j and piece (see `Lines`), which meets the walk at y.
+
+    It ends on the piece ``target``, or, if that is -1, at the touch ``goal``.
+    """
 
     i: int
     j: int
@@ -261,7 +266,9 @@ class ProposedLine:
 
 @dataclass(frozen=True)
 class LineCell:
-    """Lines that touch one feature, with ordinates from low to high, and meet one target in one branch.
+    """Lines of one touch, with ordinates from low to high, that meet one target.
+
+    They meet a circle first in ``branch`` 0, then in branch 1.
 
     Marks stand for ordinates of other lines: a number of a line, or -1 - k for the k-th fixed ordinate. The
     cell lies between ``below`` and ``above``; if nothing is above, it is a run of cells between ordinates

@@ -44,7 +44,8 @@ from exactacq.strategies.seed_spreader.prediction.pieces import (
 class Proposals:
     """The lines of sight from the line at abscissa x, from ordinate *low* to *high*, that floats leave over.
 
-    *fixed* are ordinates that also part cells: those of the stands, and the ends of the walk.
+    *fixed* are ordinates that also part cells: those of the stands, and the ends of the walk. A *touch* is a
+    feature as lines touch it: points are one each, arcs two, on the lines' left and on their right.
     """
 
     def __init__(
@@ -104,23 +105,23 @@ class Proposals:
         near = gap < 100 * self.grain
         close = list(zip(i[near].tolist(), j[near].tolist(), strict=True))
         i, j, gap = i[~near], j[~near], gap[~near]
-        normal, bend, real = self._normals(self.center[i], self.turn[i], self.center[j], self.turn[j])
+        normal, tilt, real = self._normals(self.center[i], self.turn[i], self.center[j], self.turn[j])
         flat = np.abs(normal[:, 1]) < 1e-9
         level = (normal * (self.center[i] - (self.x, 0.0))).sum(axis=1) + self.turn[i]
         vague = real & flat & (np.abs(level) < 1e-8 * self.slack / MARGIN)
         close += zip(i[vague].tolist(), j[vague].tolist(), strict=True)
-        keep = real & ~flat & self._may_touch(i, normal, bend) & self._may_touch(j, normal, bend)
-        i, j, normal, bend = i[keep], j[keep], normal[keep], bend[keep]
+        keep = real & ~flat & self._may_touch(i, normal, tilt) & self._may_touch(j, normal, tilt)
+        i, j, normal, tilt = i[keep], j[keep], normal[keep], tilt[keep]
         piece = np.full(len(i), -1)
-        i, j, piece, normal, bend = self._with_tangents(i, j, piece, normal, bend)
+        i, j, piece, normal, tilt = self._with_tangents(i, j, piece, normal, tilt)
         level = dot(normal, self.center[i]) + self.turn[i]
         y = (level - normal[:, 0] * self.x) / normal[:, 1]
         far = norm(self.center[i] - np.stack((np.full(len(y), self.x), y), axis=1))
-        error = (self.grain / 1000 + bend * far) / np.abs(normal[:, 1])
-        lines = Lines(i, j, piece, y, error, np.stack((normal[:, 1], -normal[:, 0]), axis=1), bend)
+        error = (self.grain / 1000 + tilt * far) / np.abs(normal[:, 1])
+        lines = Lines(i, j, piece, y, error, np.stack((normal[:, 1], -normal[:, 0]), axis=1), tilt)
         return lines[(y + error >= self.low - self.slack) & (y - error <= self.high + self.slack)], close
 
-    def _may_touch(self, k: Ints, normal: Floats, bend: Floats) -> Flags:
+    def _may_touch(self, k: Ints, normal: Floats, tilt: Floats) -> Flags:
         """Whether lines may touch arcs k (rather than what is missing of their circles)."""
         if not len(self.pieces.curves):
             return np.ones(len(k), dtype=bool)
@@ -129,7 +130,7 @@ class Proposals:
         touch = self.center[k] + self.turn[k, None] * normal
         chord = pieces.end[arc] - pieces.start[arc]
         side = cross(unit(chord), touch - pieces.start[arc])
-        outside = side > self.slack + bend * np.abs(self.turn[k])
+        outside = side > self.slack + tilt * np.abs(self.turn[k])
         wide = norm(chord) > 1e-6 * np.abs(self.turn[k])
         return np.asarray((arc < 0) | pieces.full[arc] | ~wide | ~outside)
 
@@ -149,10 +150,10 @@ class Proposals:
         root = np.sqrt(np.maximum(rest, 0.0))
         length = np.sqrt(square)
         normal = (k[:, None] * d + root[:, None] * left(d)) / np.maximum(square, TINY)[:, None]
-        bend = np.minimum(4 * base / np.maximum(root, TINY), 4 * np.sqrt(base / np.maximum(length, TINY)))
-        return unit(normal), bend, (rest > -4 * base * length) | (self.slack == np.inf)
+        tilt = np.minimum(4 * base / np.maximum(root, TINY), 4 * np.sqrt(base / np.maximum(length, TINY)))
+        return unit(normal), tilt, (rest > -4 * base * length) | (self.slack == np.inf)
 
-    def _with_tangents(self, i: Ints, j: Ints, piece: Ints, normal: Floats, bend: Floats) -> Any:
+    def _with_tangents(self, i: Ints, j: Ints, piece: Ints, normal: Floats, tilt: Floats) -> Any:
         """Joined by the tangents of pieces at their ends and at stands."""
         rows = [
             (g, k)
@@ -161,7 +162,7 @@ class Proposals:
             if self.pieces.sense[k] or self.goal[g] or self.stand[g]
         ]
         if not rows:
-            return i, j, piece, normal, bend
+            return i, j, piece, normal, tilt
         pieces = self.pieces
         g, k = np.array(rows).T
         across = left(pieces.tangents(k, self.center[g]))
@@ -173,7 +174,7 @@ class Proposals:
             np.concatenate((j, np.full(len(g), -1))),
             np.concatenate((piece, k)),
             np.concatenate((normal, across)),
-            np.concatenate((bend, self.grain / 1000 / np.maximum(size, TINY))),
+            np.concatenate((tilt, self.grain / 1000 / np.maximum(size, TINY))),
         )
 
     # -- lines of sight along them ---------------------------------------------------------------------
@@ -190,7 +191,7 @@ class Proposals:
             sign = np.where(at_stand, sense, np.where(one + two < 0, -1.0, 1.0))
             use = at_stand if sense < 0 else np.ones(len(sign), dtype=bool)
             near, far = np.minimum(one * sign, two * sign), np.maximum(one * sign, two * sign)
-            blur = self.slack + lines.error + lines.bend * self.radius
+            blur = self.slack + lines.error + lines.tilt * self.radius
             use = use & (near > -blur) & (far < self.radius + blur)
             found += self._sights(lines[use], p[use], lines.way[use] * sign[use, None], far[use])
         return found
@@ -199,7 +200,7 @@ class Proposals:
         other = np.where(lines.j < 0, lines.i, lines.j)
         base = self.grain / 1000 + lines.error
         rows, columns, ts, errors = [], [], [], []
-        hit, blur = self._hits(p, way, base + lines.bend * self.radius)
+        hit, blur = self._hits(p, way, base + lines.tilt * self.radius)
         bound = self.on[:, self.targets] & (
             (self.pieces.sense[self.targets] == 0) | (self.turn != 0)[:, None]
         )
@@ -225,7 +226,7 @@ class Proposals:
         t, error = np.concatenate(ts), np.concatenate(errors) + base[row]
         q = p[row] + t[:, None] * way[row]
         leave, back = self._arrivals(column, q)
-        blur = margin(ANGLE) + 4 * error / np.maximum(t, TINY) + lines.bend[row]
+        blur = margin(ANGLE) + 4 * error / np.maximum(t, TINY) + lines.tilt[row]
         ok = (t <= self.radius + 2 * error + self.slack) & ~enters(leave, back, -way[row], blur)
         for k in (lines.i[row], other[row]):
             at = dot(self.center[k] - p[row], way[row])
@@ -314,10 +315,10 @@ class Proposals:
         gaps = self._gaps(lines)
         touch, low, high = gaps.touch, gaps.low, gaps.high
         p = self._places((low + high) / 2)
-        way, bend, along, real = self._about(touch, p)
-        real &= self._may_touch(touch, left(way), bend)
+        way, tilt, along, real = self._about(touch, p)
+        real &= self._may_touch(touch, left(way), tilt)
         shake = (high - low + 10 * self.slack) * (1 + self.radius / np.maximum(np.abs(along), TINY))
-        base = self.grain / 1000 + bend * self.radius
+        base = self.grain / 1000 + tilt * self.radius
         base = np.minimum(base + np.where(gaps.tiny, shake, 0.0), self.radius)
         hit, blur = self._hits(p, way, base)
         ok = real[:, None, None] & (hit > along[:, None, None] - blur - self.slack)
@@ -363,9 +364,9 @@ class Proposals:
 
     def _about(self, touch: Ints, p: Floats) -> tuple[Floats, Floats, Floats, Flags]:
         """The lines from places about features: direction, its error, length of the tangent, existence."""
-        normal, bend, real = self._normals(p, np.zeros(len(p)), self.center[touch], self.turn[touch])
+        normal, tilt, real = self._normals(p, np.zeros(len(p)), self.center[touch], self.turn[touch])
         way = np.stack((normal[:, 1], -normal[:, 0]), axis=1)
-        return way, bend, dot(self.center[touch] - p, way), real
+        return way, tilt, dot(self.center[touch] - p, way), real
 
     def _ends(self, touch: Ints, y: Floats, target: Ints, branch: Ints) -> tuple[Floats, Flags]:
         """Where lines about features meet the carriers of targets, moved onto these; whether certain."""

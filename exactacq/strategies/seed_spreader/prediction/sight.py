@@ -1,5 +1,4 @@
-"""The exact part of predictions: the part of the line in question, whether one line of sight is free, and how
-fast it grows."""
+"""The exact part of predictions: the walk, whether a line of sight from it is free, and how fast it grows."""
 
 from __future__ import annotations
 
@@ -19,13 +18,13 @@ from exactacq.strategies.seed_spreader.hulls import ConvexHull, overlap
 from exactacq.strategies.seed_spreader.prediction.pieces import Pieces
 
 
-class VerticalWay:
-    """The part of the vertical line, and the range."""
+class VerticalWalk:
+    """A walk up or down a vertical line at abscissa *x*, from ordinate *start* to *stop*, and the range."""
 
     def __init__(self, x: fmpq, start: Real, stop: Real | fmpq, radius: fmpq, including: bool) -> None:
         self.x, self.start, self.stop, self.radius = x, start, stop, radius
         self.including = including
-        # A walk of one place goes either way.
+        # 1 up, -1 down; a walk of one place counts as up.
         self.sense = Real(stop).compare(start) or 1
         self.reach = float(radius) * (1 + 1e-9)
         self.low, self.high = sorted((float(start), float(stop)))
@@ -79,13 +78,13 @@ def unique(curves: Sequence[Curve]) -> Iterator[Curve]:
 
 
 class _Germ(NamedTuple):
-    """A curve that leaves a point: its direction and its curvature, or a number of the same order.
+    """A curve as it leaves a point: its direction, and its curvature to the left, or a number ordered alike.
 
     Those that are known to run *along* the line of sight have one direction, or opposite ones.
     """
 
     way: Point
-    bend: fmpq
+    curvature: fmpq
     along: bool = False
 
 
@@ -99,14 +98,16 @@ def _enters(leave: _Germ, back: _Germ, way: Point) -> bool:
 
 
 def _turn(a: _Germ, b: _Germ) -> int:
-    """How far b lies counterclockwise of a: 0 nowhere, 1 by its bend, 2 to 4 below, by and above a half turn,
-    5 a full turn less a bend."""
+    """Rank of the counterclockwise turn from a to b: 2, 3 or 4 if it is less than half a turn, half, or more.
+
+    Where both have one direction, 0 if their curvatures are equal, 1 if b curves to the left of a, else 5.
+    """
     side = 0 if a.along and b.along else a.way.cross(b.way).sign()
     if side:
         return 3 - side
     if a.way.dot(b.way).sign() < 0:
         return 3
-    return 0 if a.bend == b.bend else 1 if b.bend > a.bend else 5
+    return 0 if a.curvature == b.curvature else 1 if b.curvature > a.curvature else 5
 
 
 def _germ(curve: Curve, at: Point, on: Touched) -> _Germ:
@@ -114,12 +115,12 @@ def _germ(curve: Curve, at: Point, on: Touched) -> _Germ:
     if isinstance(curve, Segment):
         return _Germ(curve.whole.direction, fmpq(0))
     # A line that touches a circle meets it once, so it does here.
-    along, bend = any(curve is one for one in on), (1 if curve.ccw else -1) / curve.radius_sq
-    return _Germ(curve.tangent(at), bend, along)
+    along, curvature = any(curve is one for one in on), (1 if curve.ccw else -1) / curve.radius_sq
+    return _Germ(curve.tangent(at), curvature, along)
 
 
 def _reversed(germ: _Germ) -> _Germ:
-    return _Germ(-germ.way, -germ.bend, germ.along)
+    return _Germ(-germ.way, -germ.curvature, germ.along)
 
 
 class Sights:
