@@ -191,9 +191,8 @@ class KnownMap:
         >>> print(xa.Robot(xa.load("circles")).map.nearest(0, (0, 0)))
         (3, 0)
         """
-        spot = Point.of(place)
-        curves = [(part.start, part.curve) for part in self.known(i)]
-        return nearest_of([start if c is None else nearest_point(c, spot) for start, c in curves], spot)
+        nearest, _ = nearest_on(self.known(i), Point.of(place))
+        return nearest
 
     def lies_west(self, i: int, x: object) -> bool:
         """Whether a known point of an obstacle lies west of the vertical line at an abscissa.
@@ -265,6 +264,13 @@ class KnownMap:
         if number not in range(self._count):
             raise ValueError(f"no obstacle {shown(i)} was seen yet")
         return self._numbers.order[number]
+
+
+def nearest_on(parts: Sequence[KnownPart], place: Point) -> tuple[Point, Curve | None]:
+    """The point of some parts nearest to a place, of several the lexicographically least, with its curve."""
+    points = [part.start if part.curve is None else nearest_point(part.curve, place) for part in parts]
+    nearest = nearest_of(points, place)
+    return nearest, next(part.curve for p, part in zip(points, parts, strict=True) if p is nearest)
 
 
 def _parts(chart: Map, k: int, i: int) -> tuple[KnownPart, ...]:

@@ -30,14 +30,13 @@ from exactacq.sensing.memory import Memory
 from exactacq.sensing.path import Path, Piece
 from exactacq.strategies.first_hit import first_hit, obstacle_at
 from exactacq.strategies.known_links import KnownLinks, NearestLink
-from exactacq.strategies.known_map import KnownMap, KnownPart, Sighting
+from exactacq.strategies.known_map import KnownMap, KnownPart, Sighting, nearest_on
 from exactacq.strategies.known_paths import KnownPaths
 from exactacq.strategies.lap import Lap
 from exactacq.strategies.moves import KnownLink
 from exactacq.strategies.numbering import Numbering
 from exactacq.strategies.routes import Exit, Route
 from exactacq.strategies.seed_spreader.blocked import Blocking
-from exactacq.strategies.seed_spreader.range_thresholds import nearest_of, nearest_point
 from exactacq.strategies.sightings import Sightings
 from exactacq.strategies.trace import Trace
 from exactacq.strategies.walker import Walker
@@ -440,11 +439,8 @@ class Observer:
 
         With the piece of boundary on which it lies; None for a single point.
         """
-        parts, here = self.look(i) if visible else (), self.position
-        curves = [(part.start, part.curve) for part in parts or chart.known(i)]
-        points = [start if curve is None else nearest_point(curve, here) for start, curve in curves]
-        nearest = nearest_of(points, here)
-        return nearest, next(c for p, (_, c) in zip(points, curves, strict=True) if p is nearest)
+        parts = self.look(i) if visible else ()
+        return nearest_on(parts or chart.known(i), self.position)
 
     def _node_at(self, place: Point) -> Node:
         """The obstacle on whose boundary a place lies, if there is one."""
