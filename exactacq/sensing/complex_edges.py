@@ -45,7 +45,7 @@ Swept: TypeAlias = "tuple[Pencil, list[FamilyImage]]"
 
 
 class EndOnLine(SingleLines):
-    """A line along a straight edge: from a place that is made when it is asked for, the edge is shown."""
+    """The line of a straight edge, which shows the edge end on from a place made on demand."""
 
     def __init__(self, make: Callable[[], Reached], run: tuple[Pin, Pin]) -> None:
         self._make, self._run = make, run

@@ -1,6 +1,7 @@
-"""Which of the families at a leg matter: most show what is known, from where more is seen anyway.
+"""Which of the families at a leg have to be made exact.
 
-Floats with proven bounds tell (see `exactacq.kernel.choice`); what they leave open matters.
+Most show only what is known, of obstacles in sight without them. Floats with proven bounds tell which
+(see `exactacq.kernel.choice`); where they leave it open, the family is made.
 """
 
 from __future__ import annotations
@@ -63,7 +64,8 @@ class KnownSpans(Mapping[int, Sequence[Span]]):
 class LastShown(NamedTuple):
     """Which of some edges may be the last to become known all over, and bounds of where on the leg that is.
 
-    It is not before one of them is seen ``along`` its own line, if that is given: then all of that one is.
+    If ``along`` is given, it is the line of one of them: before the leg crosses it that edge is not known all
+    over, and where it does the robot sees all of the edge along it.
     """
 
     edges: Collection[int]

@@ -63,7 +63,7 @@ WAY_KEYS = -(2**60)
 
 
 class LegSights:
-    """All from where edges are seen on one leg, obstacles with their whole boundaries.
+    """From where on one leg each edge is seen; obstacles count with their whole boundaries.
 
     *view* gives what is seen from a point, with the edges through it if these are known. *way* is a straight
     leg as a way, if it is there.
@@ -100,7 +100,10 @@ class LegSights:
         return changes.settle([self._parted(cluster) for cluster in changes.clusters()])
 
     def at_end(self, is_last: bool) -> dict[int, AtEnd]:
-        """The edges in sight where the robot leaves the leg, or else where it enters it; its own one is."""
+        """The edges in sight where the robot leaves the leg if *is_last*, else where it enters it.
+
+        The leg's own edge is among them.
+        """
         assert self.turns is not None, "places are in order once changes are known"
         found = {one.edge: one for one in self._changes.at_end(is_last == self.leg.ahead)}
         if self.leg.edge is not None:

@@ -1,4 +1,4 @@
-"""All that one leg, a piece of the path, shows of some obstacles.
+"""All that one leg shows of some obstacles.
 
 A `Share` is a family of views together with the part of the leg from which it is seen. On a boundary edge the
 families are those that the visibility complex keeps for the edge; on a straight way they are those that cross

@@ -1,4 +1,4 @@
-"""Legs: the pieces of a path, each with an exact parameter along it, rational wherever possible."""
+"""Legs: the parts of a path, each with an exact parameter along it, rational wherever possible."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ from exactacq.visibility.place_facts import NOTHING_KNOWN, Alignment, PlaceFacts
 BITS = 256
 """Precision of the balls that tell which corners a way may touch, and which places are inside an edge."""
 SOON = 6
-"""So often the way to whatever happens next is halved for a place just past a sighting."""
+"""How often the way to whatever happens next is halved to find a place just past a sighting."""
 
 Place: TypeAlias = "tuple[Real, Point]"
 """A place of a leg: its parameter on the rail, and the point."""
@@ -59,7 +59,7 @@ class HaltPlace(NamedTuple):
 
 @dataclass(frozen=True)
 class Leg:
-    """A way along one rail: of boundary edge ``edge``, or in free space if None.
+    """A part of a path along one rail: that of boundary edge ``edge``, or of a straight way if that is None.
 
     ``ahead`` tells whether the rail's parameter grows along the way; ``touches`` has the numbers of the
     features that the line of a straight way touches (see `line_keys`), ``beside`` the edges before and after

@@ -21,8 +21,8 @@ RimName: TypeAlias = "tuple[Hashable, Hashable, int]"
 class NamedPins:
     """Points in which named lines, and circles about named places, meet edges.
 
-    What a way adds is its own; some of it may be *known*. Those that were made or asked for last are kept,
-    `PINS_KEPT` at most: a point that was forgotten and is made again is recognised by its numbers.
+    What a way adds to its *base* is its own. Those that were made or asked for last are kept, `PINS_KEPT` at
+    most: a point that was forgotten and is made again is recognised by its numbers.
     """
 
     __slots__ = ("_base", "_own", "_rims")

@@ -1,8 +1,8 @@
 """Sensing along a path: what each piece adds to the map, and where obstacles come into sight or go out of it.
 
-Nothing is sampled and there are no time steps. A piece of the path is a *leg*, with an exact parameter
-along it. What a leg shows is the union of the families of views that start on it and of the views from
-its two ends (see `view_families`). Only obstacles that are not acquired yet are considered.
+Nothing is sampled and there are no time steps. The path is divided into *legs*, each with an exact parameter
+along it. What a leg shows is the union of what the families of views that start on it show and of the views
+from its two ends (see `view_families`). Only obstacles that are not acquired yet are considered.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ class Notice:
 
 
 def _in_order(leg: Leg, a: Notice, b: Notice) -> int:
-    """Of two reports along a leg the first: at one place an earlier kind, then a lower obstacle."""
+    """The order of two reports along a leg: from one place by kind, then by obstacle."""
     return leg.order(a.u, b.u) or ORDER[a.kind] - ORDER[b.kind] or a.obstacle - b.obstacle
 
 

@@ -1,4 +1,4 @@
-"""A straight way through free space, a stretch of a rail, as what is seen from it needs it."""
+"""A straight way through free space, with the facts from which the views along it are found."""
 
 from __future__ import annotations
 

@@ -21,7 +21,7 @@ from exactacq.visibility.sensor_range import Range
 Part: TypeAlias = "tuple[int, Interval]"
 """An edge, by its number, and an interval of it."""
 NOBODY: frozenset[int] = frozenset()
-"""The obstacles that an edge counts for which is none of theirs."""
+"""What an edge counts for that belongs to no obstacle."""
 
 
 class Target(NamedTuple):

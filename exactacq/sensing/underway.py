@@ -1,8 +1,8 @@
-"""What is known when the robot is inside a leg, edge by edge, when somebody asks.
+"""What is known of each edge when the robot is inside a leg, found when it is asked for.
 
-It is restricted from what the whole leg shows. Sensing the part up to the robot by itself would be harder,
-since its end often has complicated coordinates. Only edges within reach of the place are looked at for it:
-what is known of another one is the same at all places that have passed the same views of it, and is kept.
+What the whole leg shows is cut to the part up to the robot: to sense that part by itself would be harder, as
+its end often has complicated coordinates. This is done for the edges within reach of the robot's place only.
+What is known of another edge changes only where one more view of it is passed, and is kept until then.
 """
 
 from __future__ import annotations

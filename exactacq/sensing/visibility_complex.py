@@ -61,7 +61,7 @@ class VisibilityComplex:
         return self.sighting(places) + self._corner_normals.of(self._edges(places))
 
     def sighting(self, places: tuple[Spot, ...]) -> list[EdgeFamilies]:
-        """Those of which families tell that an edge is in sight: normals at a corner show one place of it."""
+        """Those that tell that an edge is in sight. Normals at a corner do not: they show one point of it."""
         edges = self._edges(places)
         return self._tangents.of(edges) + self._normals.of(edges)
 

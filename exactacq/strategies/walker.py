@@ -1,7 +1,7 @@
 """The walker: it goes along boundaries and straight ways, and senses them when somebody asks what it saw.
 
-It counts obstacles as the scene does, and believes what it is told of ways that are free. What a strategy may
-do and ask is the robot's (`exactacq.strategies.robot`).
+It numbers obstacles as the scene does, and does not check that a way is free. What a strategy may do and ask
+is the robot's (`exactacq.strategies.robot`).
 """
 
 from __future__ import annotations
