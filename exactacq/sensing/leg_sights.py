@@ -48,7 +48,7 @@ from exactacq.sensing.legs import Leg
 from exactacq.sensing.line_family import family_of
 from exactacq.sensing.line_images import bounds
 from exactacq.sensing.line_points import Role
-from exactacq.sensing.own_line import OwnLine
+from exactacq.sensing.own_line import OwnLine, parameters
 from exactacq.sensing.straight_way import StraightWay, View
 from exactacq.sensing.view_families import LineView, ViewFamily
 from exactacq.sensing.visibility_complex import VisibilityComplex
@@ -246,9 +246,7 @@ class LegSights:
         One contains it, as it is visible. Balls tell which may. Numbers, in other forms, are compared only if
         some of those have length and some have not.
         """
-        u, rail = share.shown.low, self.complex.clipper.rails[share.edge]
-        # A full circle's start is at 0 and at the top.
-        places = [u, rail.top] if rail.is_closed and u.sign() == 0 else [u]
+        places = parameters(self.complex.clipper.rails[share.edge], share.shown.low)
         may = [(part, v) for part in parts for v in places if _may_contain(part, v)]
         long = [(part, v) for part, v in may if part.low.compare(part.high) < 0]
         if len(long) in (0, len(may)):

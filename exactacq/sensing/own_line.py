@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from exactacq.cached import cached_property
 from exactacq.geometry.constructions import is_past_corner
 from exactacq.geometry.curve_images import held_point
+from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.interval_union import Cover
@@ -32,7 +33,7 @@ class OwnLine:
     @cached_property
     def _near(self) -> list[int]:
         """The wanted edges that the way's line may meet."""
-        start, along = held_point(self.line.start), held_point(self.line.end - self.line.start)
+        start, along = held_point(self.line.start), held_point(self.line.direction)
         return met(self.table.images, [*self.wanted], start, along)
 
     def families(self) -> Iterator[ViewFamily]:
@@ -41,7 +42,7 @@ class OwnLine:
             return
         span, rails = self.way.span, self.way.clipper.rails
         shown = [(e, p) for p in (span.start, span.end) for e in self._view(p).own]
-        along = self.line.end - self.line.start
+        along = self.line.direction
         shown += [*self._beyond(span.end, along), *self._beyond(span.start, -along)]
         for e, point in self._touched():
             # Its line may touch things beyond its ends too; those at an end are there already.
@@ -58,8 +59,7 @@ class OwnLine:
     def _touched(self) -> Iterator[tuple[int, Point]]:
         """The corners and the tangent points of wanted edges on the way's line, named or not."""
         table, start, end, touches = self.table, self.line.start, self.line.end, self.way.touches
-        numbers = table.line_numbers
-        along = end - start
+        numbers, along = table.line_numbers, self.line.direction
         for e in self._near:
             curve = table.curves[e]
             for number, corner in ((e, curve.start), (table.following[e], curve.end)):
@@ -89,12 +89,8 @@ class OwnLine:
                 yield e, max((curve.start, curve.end), key=lambda p: (p - end).dot(onward))
                 continue
             for point in self._as_seen(view, e, onward, [*self._met(e, end, onward, is_own=e in own)]):
-                rail = self.way.clipper.rails[e]
-                u = rail.parameter(point)
-                # A full circle's start is at 0 and at the top.
-                full = isinstance(curve, Arc) and curve.full
-                places = [u, rail.top] if full and u.sign() == 0 else [u]
-                if any(Cover(tuple(view.spans[e])).contains(place) for place in places):
+                rail, seen = self.way.clipper.rails[e], Cover(tuple(view.spans[e]))
+                if any(seen.contains(u) for u in parameters(rail, rail.parameter(point))):
                     yield e, point
 
     def _met(self, e: int, end: Point, onward: Point, is_own: bool) -> Iterator[Point]:
@@ -136,7 +132,7 @@ class OwnLine:
         far = [range_.order(p, point) > 0 for p, _ in ends]
         if not any(far):
             return ends
-        along = self.line.end - self.line.start
+        along = self.line.direction
         step = along * (range_.radius / along.norm_sq().sqrt())
         for k, place in enumerate((point - step, point + step)):
             if far[k]:
@@ -145,6 +141,11 @@ class OwnLine:
                     return []
                 ends[k] = place, u
         return ends
+
+
+def parameters(rail: Rail, u: Real) -> list[Real]:
+    """The parameters of a place, of which one is given: a full circle's start has two, 0 and the top."""
+    return [u, rail.top] if rail.is_closed and u.sign() == 0 else [u]
 
 
 def _again(place: Point, along: Point, curve: Curve) -> list[Real]:

@@ -42,6 +42,7 @@ class StraightWay:
 
     def __init__(self, complex_: VisibilityComplex, leg: Leg) -> None:
         self.complex, self.table, self.leg = complex_, complex_.table, leg
+        assert isinstance(leg.rail.curve, Segment), "straight ways lie on lines"
         self.span, self.rail = leg.span, leg.rail
         self.line, self.spots = leg.rail.curve, leg.spots
         self.touches: frozenset[int] = frozenset(leg.touches)
@@ -89,8 +90,7 @@ class StraightWay:
 
     def own_names(self, direction: Point) -> Names:
         """The name of the way's own line, for lines in a direction along it or against it."""
-        along = self.line.end - self.line.start
-        return ((OWN, direction.dot(along).sign()),)
+        return ((OWN, direction.dot(self.line.direction).sign()),)
 
     def foot_on(self, circle: int) -> Pin:
         """Where the way's line touches a circle that it is known to touch: one point on all arcs."""
@@ -148,12 +148,12 @@ class StraightWay:
 
     def foot(self, point: Point) -> Point:
         """The place of its line that is nearest to a point."""
-        start, along = self.line.start, self.line.end - self.line.start
+        start, along = self.line.start, self.line.direction
         return start + along * ((point - start).dot(along) / along.norm_sq())
 
     def is_tangent(self, center: Point, radius_sq: fmpq) -> bool:
         """Whether the way's line touches a circle."""
-        along = self.line.end - self.line.start
+        along = self.line.direction
         height = along.cross(center - self.line.start)
         excess: Real = height * height - along.norm_sq() * radius_sq
         return excess.sign() == 0
