@@ -68,6 +68,11 @@ class LineViews:
         other = self.pin(sector, t, there, names, passed) if other is None else other
         return LineView(t, (one[0], other[0]), (one[1], other[1]))
 
+    def between(self, free_views: FreeViews, t: Real, points: tuple[Point, Point]) -> LineView:
+        """The view along the line at a parameter, between the points in which it meets the two sides."""
+        (here, there), (p, q) = free_views.sides, points
+        return LineView(t, points, (self.rails[here.edge].parameter(p), self.rails[there.edge].parameter(q)))
+
     def pin(self, sector: Sector, t: Real, side: Side, names: Names, passed: Passed) -> Pin:
         """Where a line meets an edge: the same point as on the same line under another name.
 
@@ -166,17 +171,12 @@ class LineViews:
             if not is_open and here.role in (ahead, Role.CONTACT):
                 found = Real.late(t, _line_through, sector, point, k)
                 far, _ = self.pin(sector, found, there, (), ())
-                points = (point, far) if side == 0 else (far, point)
-                one, other = (
-                    self.rails[s.edge].parameter(p) for s, p in zip(free_views.sides, points, strict=True)
-                )
-                return LineView(found, points, (one, other))
+                return self.between(free_views, found, (point, far) if side == 0 else (far, point))
         return None
 
     def _exact_view(self, family: ViewFamily, free_views: FreeViews, side: int, point: Point) -> LineView:
         """The view from a point, by exact numbers."""
-        role = free_views.sides[side].role
-        sector = free_views.sector
+        sector, role, there = free_views.sector, free_views.sides[side].role, free_views.sides[1 - side]
         if role == 0 and isinstance(sector, Rolling):
             lines = [sector.touching(point)]
         else:
@@ -184,18 +184,14 @@ class LineViews:
         for t in lines:
             if t.compare(family.first.t) < 0 or t.compare(family.last.t) > 0:
                 continue
-            contact, direction = free_views.sector.touch(t)
+            contact, direction = sector.touch(t)
             # 0: the two sides meet there, as where a way touches a circle.
             if role == 0 or (point - contact).dot(direction).sign() in (0, role):
                 near, far = (self.curve(free_views.sides[k].edge) for k in (side, 1 - side))
-                other = along_normal(sector, free_views.sides[1 - side].role, near, far, point, direction)
+                other = along_normal(sector, there.role, near, far, point, direction)
                 if other is None:
-                    other = self._points.at(sector, free_views.sides[1 - side], contact, direction)
-                points = (point, other) if side == 0 else (other, point)
-                places = [
-                    self.rails[s.edge].parameter(p) for s, p in zip(free_views.sides, points, strict=True)
-                ]
-                return LineView(t, points, (places[0], places[1]))
+                    other = self._points.at(sector, there, contact, direction)
+                return self.between(free_views, t, (point, other) if side == 0 else (other, point))
         # Each point of the plane, but for one that all lines may share, lies on one line of a family on that
         # side of the contact: on one half tangent of a circle, one ray from a corner, one normal. So where
         # the lines meet a side moves along it without turning back, through all places between the extreme

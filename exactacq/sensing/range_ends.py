@@ -146,11 +146,8 @@ class RangeEnds:
                 return exact()
             corner = side.corner(self.views.curve(side.edge)) if side.fixed else None
             points.append(late_point(spot, _point_of, exact, k) if corner is None else corner)
-        one, other = (
-            self.views.rails[side.edge].parameter(point)
-            for side, point in zip(free_views.sides, points, strict=True)
-        )
-        return LineView(Real.late(t, lambda: exact().t), (points[0], points[1]), (one, other), tight=True)
+        last = self.views.between(free_views, Real.late(t, lambda: exact().t), (points[0], points[1]))
+        return last.tightened()
 
     def _last(self, free_views: FreeViews) -> LineView:
         """The one view between the extreme ones that is as long as the range."""
