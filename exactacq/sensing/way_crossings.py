@@ -151,16 +151,14 @@ class WayCrossings:
         met = line_contacts(contact, direction, self.way.piece)
         if not met or met[0].sign() == 0:
             return None
-        side = met[0].sign()
-        role = Role.AHEAD if side > 0 else Role.BEHIND
+        role = Role(met[0].sign())
         if not _shown(line_family, role, wanted):
             return None
-        wall = line_family.ahead if side > 0 else line_family.behind
+        wall = line_family.sides[role + 1]
         if wall is None:
-            # Nothing was met within reach; normals do not go back from their edge.
-            return role if side > 0 or line_family.goes_back else None
-        limit = meet(contact, direction, self.way.clipper.curve(wall.edge), side)
-        return role if (limit - met[0]).sign() * side >= 0 else None
+            return role if _is_open(line_family, role) else None
+        limit = meet(contact, direction, self.way.clipper.curve(wall.edge), role)
+        return role if (limit - met[0]).sign() * role >= 0 else None
 
     def _clear_role(self, line_family: LineFamily, t: fmpq) -> tuple[bool, Role | None]:
         """Whether long balls tell that, and what they tell."""
@@ -172,16 +170,14 @@ class WayCrossings:
             if not met:
                 return met is not None, None
             tau = met[0][0]
-        side = ball_sign(tau)
-        if not side:
+        role = Role(ball_sign(tau))
+        if role is Role.CONTACT:
             return False, None
-        role = Role.AHEAD if side > 0 else Role.BEHIND
-        wall = line_family.ahead if side > 0 else line_family.behind
+        wall = line_family.sides[role + 1]
         if wall is None:
-            # Nothing was met within reach; normals do not go back from their edge.
-            return True, role if side > 0 or line_family.goes_back else None
-        limit = self.way.clipper.views.balls_of(wall.edge).met(at, side)
-        order = 0 if limit is None else ball_sign(limit[0] - tau) * side
+            return True, role if _is_open(line_family, role) else None
+        limit = self.way.clipper.views.balls_of(wall.edge).met(at, role)
+        order = 0 if limit is None else ball_sign(limit[0] - tau) * role
         return order != 0, role if order > 0 else None
 
     @cached_property
@@ -191,7 +187,15 @@ class WayCrossings:
         return (start.x.ball(LONG), start.y.ball(LONG)), (end.x.ball(LONG), end.y.ball(LONG))
 
 
+def _is_open(line_family: LineFamily, role: Role) -> bool:
+    """Whether lines that meet nothing within reach on one side of the contact go there at all.
+
+    Normals do not go back from their edge.
+    """
+    return role is Role.AHEAD or line_family.goes_back
+
+
 def _shown(line_family: LineFamily, role: Role, wanted: frozenset[int]) -> list[Side]:
     """The wanted sides that a line family shows from behind or ahead of its contact."""
-    shown = (line_family.contact, line_family.ahead if role is Role.BEHIND else line_family.behind)
+    shown = line_family.contact, line_family.sides[1 - role]
     return [side for side in shown if side is not None and side.edge in wanted]
