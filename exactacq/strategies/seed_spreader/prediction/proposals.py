@@ -84,6 +84,9 @@ class Proposals:
         # Lines of sight touch only features within range, but all features part cells.
         self.near = self._reach(self.center) - np.abs(self.turn) <= radius + self.slack
         self.round = {f.on[0]: k for k, f in enumerate(features) if isinstance(f.shape, Arc)}
+        # The piece that is touched, if it is an arc.
+        arcs = np.array([f.on[0] if isinstance(f.shape, Arc) else -1 for f in features], dtype=np.intp)
+        self.arc = arcs[self.feature]
 
     # -- the lines ---------------------------------------------------------------------------------
 
@@ -125,8 +128,7 @@ class Proposals:
         """Whether lines may touch arcs k (rather than what is missing of their circles)."""
         if not len(self.pieces.curves):
             return np.ones(len(k), dtype=bool)
-        arc = np.array([f.on[0] if isinstance(f.shape, Arc) else -1 for f in self.features])[self.feature[k]]
-        pieces = self.pieces
+        arc, pieces = self.arc[k], self.pieces
         touch = self.center[k] + self.turn[k, None] * normal
         chord = pieces.end[arc] - pieces.start[arc]
         side = cross(unit(chord), touch - pieces.start[arc])
