@@ -96,13 +96,14 @@ class Map:
         point a Point. Properties: ``obstacle``, ``name`` (the label), ``edge``, and whether the obstacle
         is ``acquired``.
         """
+        acquired = set(self.acquired)
         return collection(
             feature(
                 part.start.__geo_interface__ if part.curve is None else part.curve.__geo_interface__,
                 obstacle=i,
                 name=self.obstacles[i].label,
                 edge=part.edge,
-                acquired=self._is_acquired(i),
+                acquired=i in acquired,
             )
             for i in self.seen
             for part in self.known(i)
