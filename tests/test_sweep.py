@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from fractions import Fraction
 from random import Random
+from subprocess import run as run_process
 
 import pytest
 from flint import fmpq
@@ -33,6 +35,22 @@ def same(p: Point | None, q: Point | None) -> bool:
         (a - b).ball(BITS).contains(0) and (a - b).ball(BITS).rad() < 1e-100
         for a, b in zip(p, q, strict=True)
     )
+
+
+def test_assertions_do_nothing_but_assert() -> None:
+    """Python leaves them out with -O. One put the places of a leg in order."""
+    wall, beyond = "[(2, 0), (4, 0), (4, 1), (2, 1)]", "[(5, -3), (6, -3), (6, -2), (5, -2)]"
+    code = f"""
+import exactacq as xa
+scene = xa.Scene([xa.Polygon({wall}), xa.Polygon({beyond})])
+swept = xa.sweep(scene, xa.Segment(xa.Point(0, 0), xa.Point(8, 0)), radius=6)
+print([(event.change.value, event.edge, event.leg, str(event.place)) for event in swept.events])
+"""
+    told = [
+        run_process([sys.executable, *options, "-c", code], capture_output=True, text=True, check=True).stdout
+        for options in ([], ["-O"])
+    ]
+    assert told[0] == told[1] and "reappearance" in told[0]
 
 
 def seen_through(

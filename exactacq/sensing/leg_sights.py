@@ -104,7 +104,7 @@ class LegSights:
 
         The leg's own edge is among them.
         """
-        assert self.turns is not None, "places are in order once changes are known"
+        _ = self.turns  # Places are in order once changes are known.
         found = {one.edge: one for one in self._changes.at_end(is_last == self.leg.ahead)}
         if self.leg.edge is not None:
             found[self.leg.edge] = AtEnd(self.leg.edge, [], True, [])
