@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence, Set
 from dataclasses import dataclass
-from operator import index
 from typing import NamedTuple
 
 from exactacq.cached import cached_property
@@ -257,13 +256,7 @@ class KnownMap:
         return self._charts[k], k
 
     def _number(self, i: int) -> int:
-        try:
-            number = index(i)
-        except TypeError:
-            number = -1
-        if number not in range(self._count):
-            raise ValueError(f"no obstacle {shown(i)} was seen yet")
-        return self._numbers.order[number]
+        return self._numbers.scene_number(i, self._count)
 
 
 def nearest_on(parts: Sequence[KnownPart], place: Point) -> tuple[Point, Curve | None]:

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from operator import index
+from typing import Any
 
 import numpy as np
 from flint import fmpq
 
 from exactacq.cached import cached_property
+from exactacq.errors import shown
 from exactacq.numbers.real import rational
 from exactacq.scene.edge_table import Floats
 
@@ -36,6 +39,16 @@ class Numbering:
         for obstacle in self.order[count:]:
             del self.own[obstacle]
         del self.order[count:]
+
+    def scene_number(self, number: Any, count: int) -> int:
+        """The scene's number of one of the first *count* obstacles; ValueError for any other."""
+        try:
+            k = index(number)
+        except TypeError:
+            k = -1
+        if k not in range(count):
+            raise ValueError(f"no obstacle {shown(number)} was seen yet")
+        return self.order[k]
 
     @cached_property
     def _boxes(self) -> Floats:

@@ -425,9 +425,7 @@ class Observer:
 
     def _scene_number(self, number: int) -> int:
         """The scene's number of an obstacle that was seen."""
-        if number not in range(len(self._numbers)):
-            raise ValueError(f"no obstacle {number!r} was seen yet")
-        return self._numbers[number]
+        return self._seen.numbers.scene_number(number, len(self._numbers))
 
     def _known_links(self) -> KnownLinks:
         if self._links is None:
