@@ -70,15 +70,15 @@ def test_intervals_of_an_obstacle(name: str) -> None:
             ]
             got = [(e, part.low, part.high) for _, (e, part) in some.within({k}, spans)]
             assert sorted(got) == sorted(expected)
-            assert (k in some.near(spans)) >= bool(expected)
+            assert (k in some.of_edges(spans)) >= bool(expected)
 
 
 @pytest.mark.parametrize("name", ["whole", "cut"])
-def test_obstacles_near_edges(name: str) -> None:
+def test_obstacles_of_edges(name: str) -> None:
     _, some = targets(name)
     for e in range(40):
-        assert some.near([e, 99]) == {k for k, own in enumerate(some.of) if any(t.edge == e for t in own)}
-    assert some.near([]) == set()
+        assert some.of_edges([e, 99]) == {k for k, own in enumerate(some.of) if any(t.edge == e for t in own)}
+    assert some.of_edges([]) == set()
 
 
 def test_only_an_obstacle_of_which_more_is_known_is_asked_whether_it_is_whole(

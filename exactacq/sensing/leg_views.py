@@ -353,7 +353,7 @@ class Shares:
     def shown(self) -> set[int]:
         """The obstacles of which something may be in sight somewhere on the leg."""
         of = [k for k, shares in self.of.items() if shares]
-        seen = self.targets.near(e for view in self.end_views for e in view.edges)
+        seen = self.targets.of_edges(e for view in self.end_views for e in view.edges)
         return {*of, *self.in_sight, *self.ends, *self._along, *seen.intersection(self.obstacles)}
 
     def is_in_sight(self, k: int) -> bool:

@@ -269,7 +269,7 @@ class Memory:
 
     def _learn(self, learned: Mapping[int, Cover]) -> None:
         self._history.learn(learned)
-        self._news |= self._sensor.targets.near(learned)
+        self._news |= self._sensor.targets.of_edges(learned)
 
     def news(self) -> set[int]:
         """The obstacles of which more became known since the last time that this was asked."""
@@ -350,7 +350,7 @@ class Memory:
     def near(self, box: tuple[float, float, float, float]) -> set[int]:
         """The obstacles with an edge whose box is within the radius of a box."""
         x, y, right, top = box
-        return self._sensor.targets.near(self._table.around((x, y), (right, top), float(self.radius)))
+        return self._sensor.targets.of_edges(self._table.around((x, y), (right, top), float(self.radius)))
 
     def visible(self, place: Point, obstacle: int) -> list[Curve]:
         """What is in sight of an obstacle from a place; a single point is a piece without length."""

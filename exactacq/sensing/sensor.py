@@ -106,7 +106,7 @@ class Sensor:
 
     def _looked_around(self, place: Point) -> tuple[list[Notice], dict[int, Cover]]:
         view = self._view(place)
-        near = sorted({*self.targets.near(view.spans), *self.targets.cut_ends})
+        near = sorted({*self.targets.of_edges(view.spans), *self.targets.cut_ends})
         seen = [k for k in near if self._shown(view, k)]
         learned = self._with_view(view, seen)
         notices = []
@@ -157,7 +157,7 @@ class Sensor:
             learned = shares.taught(self.covers, self._known, leg.start is self._here)
         now = ChainMap(learned, self.covers)
         # None of the obstacles was whole before: only one of which more is known now can be.
-        more = self.targets.near(learned)
+        more = self.targets.of_edges(learned)
         notices: list[Notice] = []
         # What is in sight at first is seen from the start: of what is not shown nothing is to be told.
         for k in sorted(shares.shown()):
@@ -234,7 +234,7 @@ class Sensor:
 
     def _near(self, leg: Leg) -> set[int]:
         """The obstacles with an edge that may be seen from the leg."""
-        return self.targets.near(self.table.lit(leg.spots, self.range.above))
+        return self.targets.of_edges(self.table.lit(leg.spots, self.range.above))
 
     def _view(
         self,

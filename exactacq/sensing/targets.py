@@ -116,7 +116,7 @@ class Targets:
         """The edges that count for an obstacle and for no other."""
         return {e for e in self.edges[k] if len(self._on[e]) == 1}
 
-    def near(self, edges: Iterable[int]) -> set[int]:
+    def of_edges(self, edges: Iterable[int]) -> set[int]:
         """The obstacles that some of the edges count for."""
         return set[int]().union(*self._different(edges))
 
