@@ -128,11 +128,13 @@ _AT = {
     (EventKind.HIT, Occasion.DIVERSION): "diversion",
     (EventKind.LEAVE, Occasion.DIVERSION): "back to the M-line",
 }
+"""What an occasion adds to an event of a certain kind."""
 _ON = {
     Occasion.M_LINE: "on the M-line",
     Occasion.WAY_OUT: "on the way",
     Occasion.WAY_BACK: "on the way back",
 }
+"""What an occasion adds to events of all other kinds."""
 _ENDED = {
     Ending.ALL_VISITED: "every obstacle is visited",
     Ending.NOTHING_UNVISITED: "no unvisited obstacle on the map",
@@ -144,8 +146,7 @@ _ENDED = {
     Ending.MOST_MOVES: "no more moves are allowed",
     Ending.UNDECIDED: "given up: a comparison is undecided",
 }
-
-
+"""Why a path ends."""
 _NOW = {
     Reason.OUT_OF_SIGHT: "it goes out of sight",
     Reason.OUT_OF_REACH: "what is known of it goes out of reach",

@@ -63,15 +63,15 @@ class Robot(Observer):
     moves: grazing does not block its sight. What it may do are the methods that move it, `go_to`, `go_along`,
     `walk`, `walk_to`, `circle`, `follow`, `take_up`, `take` and `go_back`; all else are questions, and
     leave it where it is.
-    It never tells anything of the scene but what it has seen, of a boundary all around which it has walked
-    the links that begin there, and at a known point of a boundary whether a route crosses it. A terrain's
-    border is no wall, and is not seen. Moves take a *reason*, a text or a `Decision` with the robot's numbers
+    It tells nothing of the scene but what it has seen, the links that begin at a boundary all around which it
+    has walked, and whether a route crosses a boundary at a known point. A terrain's border is no wall, and is
+    not seen. Moves take a *reason*, a text or a `Decision` with the robot's numbers
     of obstacles, which the run tells with the event that begins the move; a move of no length has none.
     The reason may be a function that gives one of these: it is called when somebody reads the reason.
 
     One that is *confined* keeps within the scene's `terrain` and knows its border; it starts in the SW
-    corner. Obstacles are what the border leaves of them as far as the robot can come to them from there.
-    Where the border cuts a boundary, this has two ends.
+    corner. Its obstacles are the components that the border leaves of the scene's and that the robot can
+    reach from there. Where the border cuts a boundary, this has two ends.
 
     Raises `InvalidScene` if start or radius is missing or illegal, or if an obstacle meets the terrain's
     border, or, if it is confined, without a terrain, with an enclosure, if the SW corner is not free, and if
@@ -350,9 +350,9 @@ class Robot(Observer):
     def take(self, link: KnownLink, *, reason: Why = "") -> Way:
         """Walk along the present boundary to where a link begins, and go along it.
 
-        Of its equally short segments it is the one with the least walk before, of those the one to which the
-        left hand leads, then the one with the lexicographically least leave point and hit point. `MoveError`
-        if the link does not begin where the robot is, or is that of another robot.
+        Of its equally short segments it takes the one with the shortest walk to its leave point, of those one
+        to which the left hand leads, then the one with the lexicographically least leave point and hit point.
+        `MoveError` if the link does not begin where the robot is, or is that of another robot.
 
         >>> import exactacq as xa
         >>> robot = xa.Robot(xa.load("circles"))

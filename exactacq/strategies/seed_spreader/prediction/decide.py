@@ -416,9 +416,10 @@ class _LineBatch:
         return self.search._is_seen(p, center, on)
 
     def _sees_close(self, i: int, j: int) -> bool:
-        """Two features that floats cannot part, or a line that seems to run along the walk.
+        """Whether a line of two touches is a free line of sight, where floats do not tell which line that is.
 
-        Two arcs about one centre have no line in common, or all: then these are asked for one by one.
+        The touches are too close, or the line seems to be the walk's own. Two arcs about one centre have no
+        tangent in common, or all of them: these are found as those of one.
         """
         one, other = (self._shape(k)[0].rational for k in (i, j))
         if one is not None and one == other:
