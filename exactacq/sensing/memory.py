@@ -352,13 +352,13 @@ class Memory:
         x, y, right, top = box
         return self._sensor.targets.of_edges(self._table.around((x, y), (right, top), float(self.radius)))
 
-    def visible(self, place: Point, obstacle: int) -> list[Curve]:
-        """What is in sight of an obstacle from a place; a single point is a piece without length."""
-        rails = self._sensor.rails
-        return [
-            Segment(i.start, i.start) if i.low.compare(i.high) == 0 else rails[e].curve.part(i.start, i.end)
-            for e, i in self._sensor.visible(place, obstacle)
-        ]
+    def visible(self, place: Point, obstacle: int) -> Iterator[tuple[Point, Point, Curve | None]]:
+        """The parts of an obstacle in sight from a place: their ends, and their curves, None for a point."""
+        for e, seen in self._sensor.visible(place, obstacle):
+            if seen.low.compare(seen.high) == 0:
+                yield seen.start, seen.start, None
+            else:
+                yield seen.start, seen.end, self._sensor.rails[e].curve.part(seen.start, seen.end)
 
     @property
     def now(self) -> Map:

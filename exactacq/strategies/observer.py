@@ -225,10 +225,10 @@ class Observer:
         x, y = place.xy
         near = memory.near((x, y, x, y))
         return tuple(
-            KnownPart(j, curve.start, curve.end, None if _is_point(curve) else curve)
+            KnownPart(j, *part)
             for j, k in ((j, self._scene_number(j)) for j in (self.seen if i is None else (i,)))
             if k in near
-            for curve in memory.visible(place, k)
+            for part in memory.visible(place, k)
         )
 
     def nearest(self, obstacles: Iterable[int], *, visible: bool = False) -> tuple[int, Point]:
@@ -555,11 +555,6 @@ def _start_flaws(
 def _hulls(table: EdgeTable, ground: Ground) -> Floats:
     """Boxes around the whole obstacles of components, which their boundaries do not leave."""
     return table.hulls[[component.obstacle.index for component in ground.components]]
-
-
-def _is_point(curve: Curve) -> bool:
-    """Whether a part in sight is a single point."""
-    return isinstance(curve, Segment) and curve.start is curve.end
 
 
 def not_there(error: ValueError) -> MoveError:

@@ -12,7 +12,7 @@ from functools import cmp_to_key, partial, wraps
 from typing import Concatenate, ParamSpec, TypeAlias, TypeVar
 
 from exactacq.errors import MoveError, Undecided, shown
-from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.sensing.decision import Decision
@@ -537,7 +537,7 @@ class Robot(Observer):
                 if awaited.just_past:
                     later = (n.u for n in ahead.notices[k:] if leg.order(notice.u, n.u) < 0)
                     place = leg.just_past(notice.u, next(later, leg.last))
-                piece = Piece(piece.kind, piece.obstacle, _upto(piece.curve, place))
+                piece = Piece(piece.kind, piece.obstacle, piece.curve.part(piece.start, place))
                 walker.memory.shorten(piece)
             break
         walker.move(piece)
@@ -550,7 +550,3 @@ def _numbered(reason: Callable[[], str | Decision], seen: Sightings, after: int)
     made = reason()
     decision = made if isinstance(made, Decision) else Decision(made)
     return decision.numbered(seen.numbers.order, after)
-
-
-def _upto(curve: Curve, place: Point) -> Curve:
-    return curve.part(curve.start, place)
