@@ -121,6 +121,12 @@ class EdgeTable:
             if isinstance(curve, Arc)
         }
 
+    def arc_on(self, circle: int) -> Arc:
+        """The first arc on a circle, which is given as a feature (see `line_numbers`)."""
+        arc = self.curves[self.line_numbers.first_arc(circle)]
+        assert isinstance(arc, Arc), "only arcs have circles"
+        return arc
+
     def on_circle_of(self, e: int) -> tuple[int, ...]:
         """The arcs on the circle of an arc, itself among them; a straight edge alone."""
         return self._on_circles.get(self.circles.get(e, e), (e,))

@@ -214,13 +214,12 @@ class Seen:
         """The end of a sight on an edge along a line that touches *features*, one of them ahead or here."""
         numbers, (u, v) = self.table.line_numbers, balls(onward)
         for feature in features:
-            is_round = numbers.is_circle(feature)
-            curve = self.table.curves[numbers.first_arc(feature) if is_round else feature]
-            center = curve.center if is_round and isinstance(curve, Arc) else curve.start
+            arc = self.table.arc_on(feature) if numbers.is_circle(feature) else None
+            center = self.table.curves[feature].start if arc is None else arc.center
             x, y = from_to(balls(self.place), balls(center))
-            is_here = is_round and isinstance(curve, Arc) and is_put_on(self.place, curve.carrier)
-            side = ball_sign(u * y - v * x) if is_round else 0
-            if (is_here or ball_sign(u * x + v * y) > 0) and bool(side) == is_round:
+            is_here = arc is not None and is_put_on(self.place, arc.carrier)
+            side = 0 if arc is None else ball_sign(u * y - v * x)
+            if (is_here or ball_sign(u * x + v * y) > 0) and (side != 0) == (arc is not None):
                 pin = self.held(e).get((e, feature, side))
                 if pin is not None:
                     yield pin[0]
@@ -276,9 +275,7 @@ def holds(
     if feature is None:
         return
     if numbers.is_circle(feature):
-        arc = table.curves[numbers.first_arc(feature)]
-        assert isinstance(arc, Arc)
-        yield e, feature, _turn(place, arc, point)
+        yield e, feature, _turn(place, table.arc_on(feature), point)
     elif not any(one.fixed for one in free_views.sides):
         # Only past the corner: from there the lines of the family show different points.
         yield e, feature, 0

@@ -137,8 +137,7 @@ class Leg:
         put_on_line(place, self.start, self.end)
         for feature in self.touches:
             if table.line_numbers.is_circle(feature):
-                arc = table.curves[table.line_numbers.first_arc(feature)]
-                assert isinstance(arc, Arc), "only arcs have circles"
+                arc = table.arc_on(feature)
                 touch = touch_on_tangent(self.start, self.end, arc.carrier)
                 put_on_tangent(place, self.start, arc.carrier, touch)
 

@@ -96,9 +96,7 @@ class StraightWay:
         """Where the way's line touches a circle that it is known to touch: one point on all arcs."""
         pin = self._feet.get(circle)
         if pin is None:
-            first = self.table.line_numbers.first_arc(circle)
-            arc = self.table.curves[first]
-            assert isinstance(arc, Arc), "only arcs have circles"
+            arc = self.table.arc_on(circle)
             # An end that was made on the circle is the foot: its numbers might take long to tell.
             pin = next((end for end in self.ends if is_put_on(end[0], arc.carrier)), None)
             if pin is None:
@@ -106,7 +104,7 @@ class StraightWay:
                 foot = touch_on_tangent(start, end, arc.carrier) or self.foot(arc.center)
                 pin = foot, self.rail.parameter(foot)
             self._feet[circle], place = pin, pin[0]
-            for e in self.table.on_circle_of(first):
+            for e in self.table.on_circle_of(self.table.line_numbers.first_arc(circle)):
                 if self.table.curves[e].contains(place):
                     on_arc = place, self.clipper.rails[e].parameter(place)
                     self.clipper.views.pins.put((OWN, e, 0), on_arc)
