@@ -6,7 +6,7 @@ examined and why.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -286,35 +286,29 @@ class LineCell:
 
 
 class Gaps:
-    """Cells by feature, before targets are looked at: between runs of ordinates that floats cannot part, and
-    these runs."""
+    """Cells before targets are looked at, as arrays ``touch``, ``low``, ``high`` and ``tiny``.
 
-    def __init__(self) -> None:
-        self._touch: list[Ints] = []
-        self._low: list[Floats] = []
-        self._high: list[Floats] = []
-        self._tiny: list[Flags] = []
+    They lie between runs of ordinates that floats cannot part; these runs are the tiny ones. *ordinates* are
+    touches with the ascending ordinates of their lines, the errors of these, and marks (see `LineCell`).
+    """
+
+    def __init__(self, ordinates: Iterable[tuple[int, Floats, Floats, Ints]]) -> None:
+        touches, lows, highs = [np.empty(0, dtype=np.intp)], [np.empty(0)], [np.empty(0)]
+        tiny, sizes = [np.empty(0, dtype=bool)], [0]
         self._marks: list[tuple[Ints, Ints, Ints]] = []
-
-    def add(self, touch: int, y: Floats, error: Floats, marks: Ints) -> None:
-        """The cells of one feature from the ascending ordinates of its lines."""
-        parted = np.flatnonzero(y[1:] - error[1:] > np.maximum.accumulate(y + error)[:-1])
-        first, last = np.concatenate(([0], parted + 1)), np.concatenate((parted, [len(y) - 1]))
-        runs = last > first
-        self._low += [y[parted], y[first[runs]]]
-        self._high += [y[parted + 1], y[last[runs]]]
-        self._tiny += [np.zeros(len(parted), dtype=bool), np.ones(int(runs.sum()), dtype=bool)]
-        self._touch.append(np.full(len(parted) + int(runs.sum()), touch))
-        self._marks.append((marks, first, last))
-
-    def closed(self) -> Gaps:
-        """The collected cells as arrays ``touch``, ``low``, ``high``, ``tiny``; call it once, at the end."""
-        self.touch = np.concatenate([np.empty(0, dtype=np.intp), *self._touch])
-        self.low = np.concatenate([np.empty(0), *self._low])
-        self.high = np.concatenate([np.empty(0), *self._high])
-        self.tiny = np.concatenate([np.empty(0, dtype=bool), *self._tiny])
-        self._offsets = np.concatenate(([0], np.cumsum([len(t) for t in self._touch]))).astype(np.intp)
-        return self
+        for touch, y, error, marks in ordinates:
+            parted = np.flatnonzero(y[1:] - error[1:] > np.maximum.accumulate(y + error)[:-1])
+            first, last = np.concatenate(([0], parted + 1)), np.concatenate((parted, [len(y) - 1]))
+            runs = last > first
+            lows += [y[parted], y[first[runs]]]
+            highs += [y[parted + 1], y[last[runs]]]
+            tiny += [np.zeros(len(parted), dtype=bool), np.ones(int(runs.sum()), dtype=bool)]
+            sizes.append(len(parted) + int(runs.sum()))
+            touches.append(np.full(sizes[-1], touch))
+            self._marks.append((marks, first, last))
+        self.touch, self.tiny = np.concatenate(touches), np.concatenate(tiny)
+        self.low, self.high = np.concatenate(lows), np.concatenate(highs)
+        self._offsets = np.cumsum(sizes)
 
     def cell(self, k: int, target: int, branch: int) -> LineCell:
         """One of them, with a target."""

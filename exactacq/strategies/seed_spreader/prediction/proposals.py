@@ -9,7 +9,7 @@ left to exact arithmetic.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from itertools import compress
 from typing import Any
@@ -314,7 +314,7 @@ class Proposals:
         Between two neighbouring lines through two features all lines about a feature are blocked or none is.
         Past a point of the walk's line goes only that line: of such cells the range is not asked.
         """
-        gaps = self._gaps(lines)
+        gaps = Gaps(self._ordinates(lines))
         touch, low, high = gaps.touch, gaps.low, gaps.high
         p = self._places((low + high) / 2)
         way, tilt, along, real = self._about(touch, p)
@@ -348,21 +348,19 @@ class Proposals:
         others = [cell for cell, is_decided in zip(found, decided, strict=True) if not is_decided]
         return [*compress(found, decided), *self._by_range(others)]
 
-    def _gaps(self, lines: Lines) -> Gaps:
-        """The stretches of the walk between neighbouring lines about each feature."""
+    def _ordinates(self, lines: Lines) -> Iterator[tuple[int, Floats, Floats, Ints]]:
+        """Where the lines about each feature that can be turned about meet the walk (see `Gaps`)."""
         two = lines.j >= 0
         i, j = self.feature[lines.i], self.feature[np.maximum(lines.j, 0)]
         j[~two] = [self.round.get(int(k), -1) for k in lines.piece[~two]]
         feature = np.concatenate((i, j))
         fixed = -1 - np.arange(len(self.fixed))
-        gaps = Gaps()
         for g in np.flatnonzero(self.pivot & self.near):
             own = np.flatnonzero(feature == self.feature[g]) % len(i)
             y = np.clip(np.concatenate((lines.y[own], self.fixed)), self.low, self.high)
             error = np.concatenate((lines.error[own], np.zeros(len(fixed)))) + self.slack
             order = np.argsort(y, kind="stable")
-            gaps.add(int(g), y[order], error[order], np.concatenate((own, fixed))[order])
-        return gaps.closed()
+            yield int(g), y[order], error[order], np.concatenate((own, fixed))[order]
 
     def _about(self, touch: Ints, p: Floats) -> tuple[Floats, Floats, Floats, Flags]:
         """The lines from places about features: direction, its error, length of the tangent, existence."""
