@@ -22,8 +22,8 @@ from exactacq.strategies.walker import Walker
 class Lookout:
     """Asks a *watch* on a straight way with distinct ends, first where the robot sets out.
 
-    Places are ordered by one coordinate: that of a place where a view ends may not be made yet, and most
-    comparisons do without.
+    Places are ordered by one coordinate. That of a place where a view ends may not be made yet: balls decide
+    most comparisons.
     """
 
     def __init__(self, way: Segment, watch: Watch, walker: Walker, numbers: Numbering) -> None:

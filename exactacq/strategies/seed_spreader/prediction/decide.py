@@ -55,9 +55,9 @@ from exactacq.strategies.seed_spreader.range_thresholds import nearest_point, th
 
 UP = Point(0, 1)
 COARSE, FINE = 8, 32
-"""Places of the walk, and points of each target, that are tried first, less one."""
+"""How many places of the walk, and points of each target, the first two grids of trials have, less one."""
 TRIES = 6
-"""Lines of sight of the grid that are tried exactly."""
+"""How many lines of sight of a grid are tried exactly."""
 FEW, MANY = 50, 2000
 """Into how many stretches a part of the walk is divided to prove that lines about a feature are too long:
 before a polynomial is solved, and where there is none."""

@@ -27,7 +27,7 @@ MARGIN = 1e-11
 ANGLE = 1e-10
 """Margin of sines of angles."""
 CHUNK, BATCH = 2048, 16
-"""Lines and pieces, of many of both, that are compared at once: a table that the processor's cache holds."""
+"""How many lines and pieces are compared at once, where there are many: a table that fits into the cache."""
 
 
 def cross(a: Floats, b: Floats) -> Any:

@@ -161,7 +161,7 @@ class Sights:
             leave = _germ(curve, z, on)
             back = _reversed(leave)
         if (leave is None or back is None) and not at_end:
-            # From places beside a lone end the like sights are free: so is this one, their limit.
+            # Sights past a lone end from places beside this one are free: so is this one, their limit.
             return True
         # At a lone end that is looked at, the boundary is taken to go straight on.
         leave = _Germ(-back.way, fmpq(0), back.along) if leave is None and back is not None else leave
