@@ -8,15 +8,18 @@ import random
 import sys
 from collections.abc import Callable
 from math import hypot
+from pathlib import Path
 from typing import Any, TypeAlias
 
 import mpmath
 import pytest
-from flint import arb, ctx, fmpq
+from flint import arb, arb_series, ctx, fmpq
 
+import exactacq as xa
 from exactacq.errors import FormatError, Undecided
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point
+from exactacq.numbers import function_zeros
 from exactacq.numbers.function_zeros import Zero, roots, zeros_between
 from exactacq.numbers.number_json import Decoder, Encoder
 from exactacq.numbers.real import Real
@@ -24,6 +27,7 @@ from exactacq.sensing.view_length import ViewLength, of_length_on
 from exactacq.visibility.chords import chord_at, of_length
 from exactacq.visibility.line_families import Rolling, Sector, Turning
 
+DATA = Path(__file__).parent / "data"
 TURNING = Turning((fmpq(0), fmpq(0)), (fmpq(1), fmpq(0)), fmpq(-1), fmpq(1))
 ROLLING = Rolling((fmpq(0), fmpq(0)), (fmpq(0), fmpq(-1)), fmpq(0), fmpq(1))
 """Lines that start eastward below the unit circle, and turn counterclockwise."""
@@ -370,3 +374,38 @@ def test_a_zero_that_cannot_be_refined_is_undecided() -> None:
     function.is_vague = True
     with pytest.raises(Undecided, match="is 0 near 3"):
         zero.enclosure(40)
+
+
+class Stairs(Sine):
+    """1, as is seen in balls below 2^-20 alone, and without a slope."""
+
+    key = "stairs"
+
+    def __call__(self, t: object) -> object:
+        if not isinstance(t, arb):
+            return arb_series([arb(0, 2), arb.nan()], prec=2)
+        return arb(1) if t.rad() < arb(2) ** -20 else arb(0, 2)
+
+
+def test_a_search_that_leads_nowhere_is_undecided() -> None:
+    """Not one that looks at a million cells: it was bounded in depth alone."""
+    with pytest.raises(Undecided, match="too close to 0"):
+        zeros_between(Stairs(), Real(0), Real(1))
+
+
+@pytest.mark.parametrize("name", ["pads_of_two_arcs", "pads_of_three_arcs"])
+def test_arcs_of_nearly_one_circle_take_few_cells(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Circles drawn as arcs with 15 digits: lines roll on one arc and nearly touch the others.
+
+    What was computed with cancellation told nothing of cells of 10^-23, of which millions were looked at.
+    """
+    cells, excludes = 0, function_zeros._excludes_zero
+
+    def counted(*cell: Any) -> bool:
+        nonlocal cells
+        cells += 1
+        return excludes(*cell)
+
+    monkeypatch.setattr(function_zeros, "_excludes_zero", counted)
+    run = xa.explore(xa.load(DATA / f"{name}.json"), "nearest-frontier")
+    assert run.map.incomplete == () and 100 < cells < 1000

@@ -29,6 +29,8 @@ BITS = 256
 FINENESS = 100
 """A cell of 2^-100 that shows neither a sign nor a slope holds a double zero, or is taken to. In a range of
 width w < 1 cells are searched down to 2^-100 w^3."""
+MOST_CELLS = 10_000
+"""Cells of a range that are looked at: some seconds' work. Real drawings take a few hundred."""
 STALLED_BITS = 1 << 16
 """A zero that is not told better than by its cell with so many bits never is."""
 PROVING_BITS = 1 << 13
@@ -148,7 +150,8 @@ def zeros_between(
 
     *sign_at* knows an easier way to the function's exact sign at the two ends, where the slope may be
     infinite. Zeros that are *known* are given back as they are. `Undecided` at a double zero (or nearly so),
-    but for one at an end of which *is_flat* knows that function and slope are 0 there.
+    but for one at an end of which *is_flat* knows that function and slope are 0 there, and beyond
+    `MOST_CELLS`.
     Which side of an end a zero lies on is asked of the function at that end: it is exact, and no comparison
     of numbers of large degree.
     """
@@ -158,10 +161,14 @@ def zeros_between(
     deepest = FINENESS + 3 * max(0, extent.q.bit_length() - extent.p.bit_length())
     cells = [(fmpq(n), fmpq(n + 1)) for n in range(int(begin.floor()), int(end.ceil()))][::-1]
     found: list[Real] = []
+    looked_at = 0
     while cells:
         left, right = cells.pop()
         if right < begin or left > end:
             continue
+        looked_at += 1
+        if looked_at > MOST_CELLS:
+            raise Undecided(f"{function} is too close to 0 about {float(left):.15g} to tell where it is")
         depth = (right - left).q.bit_length() - 1
         # The precision is the cell's own, for the same reason as its ends.
         with workprec(BITS + 2 * max(0, depth - FINENESS)):

@@ -68,8 +68,12 @@ class _Straight(_LengthSide):
     name = "line"
 
     def place(self, numbers: tuple[Any, ...], t: Any, line: _Line, root: Any) -> Any:
-        (contact, direction), start, along = line(t), numbers[:2], numbers[2:]
-        return cross(minus(start, contact), along) / cross(direction, along)
+        start, along = numbers[:2], numbers[2:]
+
+        def height(t: Any) -> Any:
+            return cross(minus(start, line(t)[0]), along)
+
+        return _tight(height, t) / cross(line(t)[1], along)
 
 
 class _Tangent(_LengthSide):
@@ -102,7 +106,7 @@ class _Round(_LengthSide):
         root = self.far * (root if known else _root(_square(numbers, t, line)))
         if _are_opposite(along, root):
             # On a circle that is large beside its arc the two nearly cancel.
-            return (dot(to_center, to_center) - numbers[2]) / (along - root)
+            return _tight(partial(_power, numbers, line), t) / (along - root)
         return (along + root) / size
 
 
@@ -284,17 +288,28 @@ def _line(is_round: bool, frame: Sequence[Any], t: Any) -> tuple[Vector, Vector]
 
 
 def _square(numbers: tuple[Any, ...], t: Any, line: _Line) -> Any:
-    """What is under the root on a circle: |d|^2 r^2 - ((m - c) x d)^2.
-
-    A ball, or a series about one, that contains 0 is enclosed once more, by the mean value theorem: where
-    lines nearly touch a large circle the value hardly changes, though all that it is made of does.
-    """
+    """What is under the root on a circle: |d|^2 r^2 - ((m - c) x d)^2."""
 
     def value(t: Any) -> Any:
         contact, direction = line(t)
         across = cross(minus(numbers[:2], contact), direction)
         return dot(direction, direction) * numbers[2] - across * across
 
+    return _tight(value, t)
+
+
+def _power(numbers: tuple[Any, ...], line: _Line, t: Any) -> Any:
+    """The power of the contact with respect to a circle: |m - c|^2 - r^2."""
+    to_center = minus(numbers[:2], line(t)[0])
+    return dot(to_center, to_center) - numbers[2]
+
+
+def _tight(value: Callable[[Any], Any], t: Any) -> Any:
+    """The value at t; a ball, or a series about one, that contains 0 is tightened by the mean value theorem.
+
+    Where lines nearly touch a large circle, roll on nearly the same one, or nearly run along a straight side,
+    the value hardly changes, though all that it is made of does.
+    """
     found = value(t)
     if isinstance(found, Real) or ball_sign(head := _head(found)):
         return found
