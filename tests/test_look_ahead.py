@@ -25,6 +25,7 @@ from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.precision import workprec
 from exactacq.numbers.real import Real, fmpq
+from exactacq.scene.bounding import terrain_around
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle, Outline
 from exactacq.strategies.seed_spreader.losses import Line
@@ -247,3 +248,15 @@ def test_two_reasons_at_one_place(monkeypatch: pytest.MonkeyPatch) -> None:
     other = misled(monkeypatch, xa.load("case3"), True)
     audit(other, samples=2)
     assert [d.leave for d in run.diversions] == [d.leave for d in other.diversions]
+
+
+@pytest.mark.parametrize("bulge", ["1e-8", "1e-9", "1e-12", "1e-20"])
+def test_sides_that_hardly_bulge(bulge: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As CAD programs write straight sides: of their circles floats tell nothing within the range."""
+    near = [(0, 0), (6, 8), ("26/5", "43/5"), ("-4/5", "3/5")]
+    far = [("36/5", "48/5"), (12, 16), ("56/5", "83/5"), ("32/5", "51/5")]
+    slabs = Scene([Outline([(x, y, bulge) for x, y in slab]) for slab in (near, far)])
+    scene = slabs.replace(terrain=terrain_around(slabs, fmpq(1, 2)), radius=8)
+    audit(xa.seed_spreader(scene), samples=2)
+    with pytest.raises(AuditError, match=r"is needless: by the map .* is seen from"):
+        audit(misled(monkeypatch, scene, False), samples=2)

@@ -27,8 +27,9 @@ from exactacq.geometry.points import Point
 from exactacq.numbers.rationals import nearest_float
 from exactacq.numbers.real import Real
 
-FINEST = 2.0**-20
-"""Lines of sight are looked for in floats, whose errors must not be larger than this share of the radius."""
+FINEST, FEW = 2.0**-8, 64
+"""Floats leave out most lines of sight. Where their errors are larger than this share of the radius they
+leave out few, so that balls compare nearly all lines, if there are so few walls."""
 
 
 class Rest(NamedTuple):
@@ -99,7 +100,7 @@ class RestOfLine:
         extents += [_extent(curve) for curve in curves if isinstance(curve, Arc)]
         self.walls = Walls(curves, len(chosen), float(max(extents)))
         self.grain = self.walls.grain
-        if self.grain > FINEST * self.reach:
+        if self.grain > FINEST * self.reach and len(curves) > FEW:
             raise Undecided("what is seen from a line: floats cannot tell places within the radius apart")
         self.targets = self.walls.list[: len(chosen)]
         self.dots = [ball_point(known.points[k]) for k in np.flatnonzero(in_reach[count:]).tolist()]
