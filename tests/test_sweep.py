@@ -313,3 +313,15 @@ def test_places_of_a_cell_take_any_rational_number(u: object) -> None:
         cell = swept.cells[0]
         assert cell.point(u) == cell.point(fmpq(1, 2))
         assert cell.windows(u) == cell.windows(fmpq(1, 2))
+
+
+def test_a_segment_that_is_not_free_is_refused() -> None:
+    """Along a rounded tangent an assertion failed. What touches an obstacle, or runs along it, is free."""
+    scene = xa.Scene([xa.Polygon([(4, -1), (7, -1), (7, 3), (4, 3)]), xa.Circle((4, 6), 1)], radius=9)
+    for end, words in (((5, 0), "the end .* lies inside obstacle O1"), ((9, 0), "leads through an obstacle")):
+        with pytest.raises(InvalidScene, match=words):
+            sweep(scene, Segment((0, 0), end))
+    with pytest.raises(InvalidScene, match="leads through an obstacle"):
+        sweep(scene, Segment((4, -1), (7, 3)))
+    for touching in (Segment((0, 5), (9, 5)), Segment((4, 3), (7, 3)), Segment((4, 3), (4, 5))):
+        assert sweep(scene, touching).cells

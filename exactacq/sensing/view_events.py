@@ -18,17 +18,18 @@ from typing import Any
 from flint import fmpq
 
 from exactacq.cached import cached_property
-from exactacq.errors import deciding, shown
+from exactacq.errors import InvalidScene, deciding, shown
 from exactacq.gc_pause import uncollected
 from exactacq.geometry.curve_parameter import Rail
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.late import Pin
-from exactacq.geometry.points import Point
+from exactacq.geometry.points import Location, Point
 from exactacq.kernel.leg_changes import BEGINS, TURNS, AtEnd, Turn
 from exactacq.numbers.rationals import rational
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.scene import Scene, radius_of
+from exactacq.scene.validation import place_text
 from exactacq.sensing.leg_facts import LegFacts
 from exactacq.sensing.leg_sights import LegSights
 from exactacq.sensing.leg_views import Shares
@@ -38,6 +39,8 @@ from exactacq.sensing.map import Map
 from exactacq.sensing.path import Piece
 from exactacq.sensing.sensor import Sensor
 from exactacq.sensing.straight_way import StraightWay
+from exactacq.visibility.free_segment import is_free
+from exactacq.visibility.scene_tables import SceneTables, point_flaws
 from exactacq.visibility.sensor_range import Range
 
 
@@ -248,10 +251,10 @@ class Sweep:
 def sweep(scene: Scene, curve: Curve, radius: object = None, *, obstacle: int | None = None) -> Sweep:
     """How the view within a radius (the scene's own if None) changes along a curve.
 
-    The curve is a free segment, or part of one boundary edge of the obstacle of that number. That a segment
-    is free is not checked. Raises `InvalidScene` if the radius is missing or not positive, and ValueError if
-    the curve has no length or is no part of the boundary, or there is no such obstacle. Cost: near linear in
-    the free lines within reach that touch two corners or arcs.
+    The curve is a free segment, or part of one boundary edge of the obstacle of that number. Raises
+    `InvalidScene` if the radius is missing or not positive, or the segment leads through an obstacle, and
+    ValueError if the curve has no length or is no part of the boundary, or there is no such obstacle. Cost:
+    near linear in the free lines within reach that touch two corners or arcs.
 
     >>> import exactacq as xa
     >>> scene = xa.Scene([xa.Polygon([(2, -1), (3, -1), (3, 1), (2, 1)])])
@@ -269,7 +272,21 @@ def sweep(scene: Scene, curve: Curve, radius: object = None, *, obstacle: int | 
     if isinstance(curve, Segment) and curve.start == curve.end:
         raise ValueError(f"a segment without length, at {curve.start}, is no piece of a path")
     kind = "straight" if obstacle is None else "boundary"
+    if obstacle is None:
+        _check_free(scene, curve)
     return _again(scene, Piece(kind, obstacle, curve), reach)
+
+
+def _check_free(scene: Scene, way: Curve) -> None:
+    """`InvalidScene` for a segment that begins, ends or leads through an obstacle."""
+    tables = SceneTables.of(scene)
+    ends = [flaw for end in (way.start, way.end) for flaw in point_flaws("end", end, tables.around(end))]
+    if ends:
+        raise InvalidScene(ends)
+    middle = tables.around(way.point(fmpq(1, 2)))
+    if any(at is Location.INSIDE for at, _ in middle) or not is_free(tables.edges, way.start, way.end):
+        between = f"from {place_text(way.start)} to {place_text(way.end)}"
+        raise InvalidScene([f"the segment {between} leads through an obstacle"])
 
 
 def _again(scene: Scene, piece: Piece, radius: fmpq) -> Sweep:
