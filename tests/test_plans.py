@@ -215,3 +215,14 @@ def test_what_cannot_be_read_is_named(tmp_path: Path, draw: Callable[[Drawing], 
     document.saveas(path := tmp_path / "odd.dxf")
     with pytest.raises(xa.FormatError, match=words):
         xa.inspect(path)
+
+
+def test_a_finer_tolerance_parts_what_lies_close(tmp_path: Path) -> None:
+    """Four panels of single lines that are close to each other: by default their corners are joined."""
+    lines = []
+    for x, y in ((0, 0), (9 + 1e-6, 0), (0, 9 + 1e-6), (9 + 1e-6, 9 + 1e-6)):
+        corners = [(x, y), (x + 9, y), (x + 9, y + 9), (x, y + 9), (x, y)]
+        lines += [[*side] for side in pairwise(corners)]
+    found = xa.inspect(plan(tmp_path / "panels.dxf", {"PANELS": lines}))
+    assert not found.ok and len(found.scene.obstacles) == 4
+    assert set(found.options) == {"tolerance"} and float(found.options["tolerance"]) < 1e-6

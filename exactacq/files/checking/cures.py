@@ -35,8 +35,8 @@ LAYERS_READ = 12
 """Most layers that are read one by one, those with the most entities."""
 LONGEST = 80
 """Most characters of layers that are named to be read."""
-COARSER = (10, 1000)
-"""Such multiples of the default tolerance are tried where a loop meets itself."""
+COARSER, FINER = (10, 1000), fmpq(1, 1000)
+"""Such multiples of the default tolerance are tried where a loop meets itself, or where three ends meet."""
 THIN, NEAR = 200, 1000
 """Walls are tried with a thickness of such a part of the drawing's size, curves with such a distance."""
 SAME = 1e-9
@@ -171,6 +171,9 @@ def _proposals(contents: Contents, found: Judged) -> Iterator[Options]:
     yield from ({"tolerance": tolerance} for tolerance in sorted({t for t in closing if t is not None}))
     if any(len(v.loops) == 1 for v in found.violations):
         yield from ({"tolerance": many * default_tolerance(size)} for many in COARSER)
+    if any("branch point" in note for note in contents.notes):
+        # What is closer than the default tolerance may have been joined.
+        yield {"tolerance": FINER * default_tolerance(size)}
     if meeting:
         yield from _fewer_layers(contents, found, meeting)
     if None in closing:
