@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import copy
 import json
+import subprocess
+import sys
 from dataclasses import fields
 from fractions import Fraction
 from functools import cache
@@ -395,3 +397,11 @@ def test_a_run_that_turns_where_a_view_leaves_the_range_comes_back() -> None:
     run = explore(Scene(shapes, start=("-137/52", "213/65"), radius="81/20"), "nearest-frontier")
     assert '"zero"' in json.dumps(run.to_json()["numbers"])
     law_of_reading_back(run)
+
+
+def test_a_run_is_written_alike_by_every_process() -> None:
+    """Products were in the order of their factors' hashes, which are those of addresses."""
+    program = "import exactacq as xa, json; print(json.dumps(xa.sightseer(xa.load('figure2')).to_json()))"
+    texts = {subprocess.check_output([sys.executable, "-c", program]) for _ in range(3)}
+    assert len(texts) == 1
+    assert load_run(json.loads(texts.pop())) == gallery_run("figure2")

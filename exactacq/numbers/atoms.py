@@ -23,6 +23,8 @@ from exactacq.numbers.rationals import without
 if TYPE_CHECKING:
     import sympy
 
+ORDERING_BITS = 64
+"""Precision of the balls by which atoms and factors are put in order."""
 Generators: TypeAlias = "frozenset[tuple[Hashable, int]]"
 """Distinct radicals and roots of an expression with their degrees: the product bounds its degree."""
 
@@ -125,6 +127,13 @@ class Node(ABC):
         """Closed form."""
 
 
+def order_of_atom(atom: Atom) -> tuple[bool, Any, int]:
+    """By which atoms are put in an order that is the same in all processes, but where balls are equal."""
+    if isinstance(atom, int):
+        return False, atom, 0
+    return True, atom.precise_ball(ORDERING_BITS).mid(), hash(atom)
+
+
 # Keys cannot be hashed any more once the interpreter takes its modules apart.
 atexit.register(Node._interned.clear)
 
@@ -150,6 +159,10 @@ class Sqrt(Node):
         return sqrt(self.args[0].sympy())
 
 
+def _order_of_factor(factor: Form) -> tuple[arb, int]:
+    return factor.ball(ORDERING_BITS).mid(), hash(factor.key)
+
+
 class Product(Node):
     """The product of two reals that is not multiplied out."""
 
@@ -158,8 +171,8 @@ class Product(Node):
 
     @classmethod
     def make(cls, *args: Any) -> Node:
-        # Factors in the order of this process's hashes, also when they come from a pickle.
-        return super().make(*sorted(args, key=lambda factor: hash(factor.key)))
+        # In order of size, so that all processes make the same nodes; equal balls leave it to hashes.
+        return super().make(*sorted(args, key=_order_of_factor))
 
     def _evaluate(self, bits: int) -> arb:
         return self.args[0].working_ball(bits) * self.args[1].working_ball(bits)
