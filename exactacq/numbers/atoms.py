@@ -127,11 +127,20 @@ class Node(ABC):
         """Closed form."""
 
 
-def order_of_atom(atom: Atom) -> tuple[bool, Any, int]:
-    """By which atoms are put in an order that is the same in all processes, but where balls are equal."""
-    if isinstance(atom, int):
-        return False, atom, 0
-    return True, atom.precise_ball(ORDERING_BITS).mid(), hash(atom)
+def compare_atoms(a: Atom, b: Atom) -> int:
+    """-1, 0 or 1 in an order of atoms that is the same in all processes, but where balls overlap."""
+    if isinstance(a, int) and isinstance(b, int):
+        return (a > b) - (a < b)
+    if isinstance(a, int) or isinstance(b, int):
+        return -1 if isinstance(a, int) else 1
+    return _compare(a.precise_ball(ORDERING_BITS), b.precise_ball(ORDERING_BITS), hash(a), hash(b))
+
+
+def _compare(one: arb, other: arb, first: int, second: int) -> int:
+    """By balls or, where these overlap, by hashes: what may be equal keeps its order as balls get finer."""
+    if one.overlaps(other):
+        return (first > second) - (first < second)
+    return -1 if one < other else 1
 
 
 # Keys cannot be hashed any more once the interpreter takes its modules apart.
@@ -159,10 +168,6 @@ class Sqrt(Node):
         return sqrt(self.args[0].sympy())
 
 
-def _order_of_factor(factor: Form) -> tuple[arb, int]:
-    return factor.ball(ORDERING_BITS).mid(), hash(factor.key)
-
-
 class Product(Node):
     """The product of two reals that is not multiplied out."""
 
@@ -171,8 +176,10 @@ class Product(Node):
 
     @classmethod
     def make(cls, *args: Any) -> Node:
-        # In order of size, so that all processes make the same nodes; equal balls leave it to hashes.
-        return super().make(*sorted(args, key=_order_of_factor))
+        # One node for both orders of the factors, and the same one in all processes.
+        a, b = args
+        order = _compare(a.ball(ORDERING_BITS), b.ball(ORDERING_BITS), hash(a.key), hash(b.key))
+        return super().make(*((a, b) if order <= 0 else (b, a)))
 
     def _evaluate(self, bits: int) -> arb:
         return self.args[0].working_ball(bits) * self.args[1].working_ball(bits)
