@@ -28,7 +28,7 @@ READ: dict[str, int] = {
     "arcs/samecircle-a10738.json": 1, "arcs/samecircle-b182.json": 2, "arcs/samecircle-b193.json": 1,
     "arcs/samecircle-b196.json": 1, "arcs/samecircle-b225.json": 2, "undecided/arcs-1371.json": 4,
     "undecided/arcs-3029.json": 3, "undecided/arcs-3358.json": 6, "undecided/rounded-squares.json": 8,
-    "undecided/thickened.json": 2,
+    "undecided/thickened.json": 2, "pads_of_two_arcs.json": 6, "pads_of_three_arcs.json": 4,
 }  # fmt: skip
 REFUSED: dict[str, tuple[str, dict[str, object], int]] = {
     "issue39.dxf": (UNION, {"union": True}, 1),

@@ -27,9 +27,11 @@ from exactacq.geometry.points import Point
 from exactacq.numbers.rationals import nearest_float
 from exactacq.numbers.real import Real
 
-FINEST, FEW = 2.0**-8, 64
-"""Floats leave out most lines of sight. Where their errors are larger than this share of the radius they
-leave out few, so that balls compare nearly all lines, if there are so few walls."""
+FINEST = 2.0**-16
+"""Lines of sight are looked for in floats: places must be told apart to this share of the radius."""
+COARSEST, FEW = 2.0**-8, 64
+"""Circles of arcs that hardly bend are so large that floats leave out few lines, and balls compare the rest.
+If errors are larger than this share of the radius, that is done for so many walls at most."""
 
 
 class Rest(NamedTuple):
@@ -96,11 +98,12 @@ class RestOfLine:
         others = [known.targets[k] for k in np.flatnonzero(~in_reach[:count]).tolist()]
         others += [known.others[k] for k in np.flatnonzero(_meet(around, field)).tolist()]
         curves = [*chosen, *others]
-        extents = [np.abs(bounds(curves)).max(initial=0.0), np.abs(field).max(), *sizes]
-        extents += [_extent(curve) for curve in curves if isinstance(curve, Arc)]
-        self.walls = Walls(curves, len(chosen), float(max(extents)))
+        size = max(np.abs(bounds(curves)).max(initial=0.0), np.abs(field).max(), *sizes)
+        circles = (_extent(curve) for curve in curves if isinstance(curve, Arc))
+        self.walls = Walls(curves, len(chosen), float(max(size, *circles, 0.0)))
         self.grain = self.walls.grain
-        if self.grain > FINEST * self.reach and len(curves) > FEW:
+        is_vague = self.grain > COARSEST * self.reach and len(curves) > FEW
+        if is_vague or UNIT * size > FINEST * self.reach:
             raise Undecided("what is seen from a line: floats cannot tell places within the radius apart")
         self.targets = self.walls.list[: len(chosen)]
         self.dots = [ball_point(known.points[k]) for k in np.flatnonzero(in_reach[count:]).tolist()]
