@@ -150,6 +150,21 @@ def test_a_line_along_a_row_is_followed_twice_at_most(monkeypatch: pytest.Monkey
     assert followed.total() < asked.total() / 2
 
 
+def test_a_line_is_the_same_from_whichever_feature_it_was_followed_first() -> None:
+    """Below a half disc, whose side ends where a line touches its arc: it was met at the wrong end."""
+    shapes = [xa.Polygon([(2, 0), (4, 0), (4, 1), (2, 1)]), xa.Outline([(0, 6, 1), (2, 6, 0)])]
+    table, reach = EdgeTable(xa.Scene(shapes, start=(-5, -5)).obstacles), Range(fmpq(9)).above
+    for seed in range(8):
+        shared = FamilySweeper(table, Range(fmpq(9)))
+        some_lines = list(lines(shared, reach))
+        Random(seed).shuffle(some_lines)
+        for line in some_lines:
+            fresh = FamilySweeper(table, Range(fmpq(9)))
+            one, other = (sweeper.follower._exactly(line) for sweeper in (shared, fresh))
+            assert places(one, reach) == places(other, reach)
+            assert [met.edge for met in one.met] == [met.edge for met in other.met]
+
+
 def check_floats(table: EdgeTable, line: FollowedLine) -> None:
     """The floats of what is met, and of the places as far away as the range, hold their numbers."""
     for k, met in enumerate(line.met):

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from decimal import Decimal
 from fractions import Fraction
 from functools import reduce
-from math import inf, nextafter
+from math import inf, isqrt, nextafter
 
 import mpmath
 import pytest
@@ -471,3 +471,14 @@ def test_the_middle_and_the_sign_of_a_ball(middle: float, radius: float) -> None
     assert float(ball) == float(ball.mid()) == middle
     at, reach = rational(middle), ball.rad().fmpq()  # no less than the radius that was asked for
     assert ball_sign(ball) == (at > reach) - (-at > reach)
+
+
+def test_a_product_is_one_node_however_fine_its_factors_are() -> None:
+    """Of two factors that differ by 2^-64, whose order balls tell once they are finer."""
+    below = 2**129
+    one = (2 + Real(below).sqrt()).sqrt()
+    other = (3 + Real(below - 2 * isqrt(below)).sqrt()).sqrt()
+    before = one * other
+    (atom,) = (one - other).terms.keys() - other.terms.keys()
+    atom.precise_ball(300)
+    assert (other * one).key == (one * other).key == before.key

@@ -20,7 +20,7 @@ from exactacq.errors import FormatError, Undecided
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers import function_zeros
-from exactacq.numbers.function_zeros import Zero, roots, zeros_between
+from exactacq.numbers.function_zeros import Zero, roots, zero_between, zeros_between
 from exactacq.numbers.number_json import Decoder, Encoder
 from exactacq.numbers.real import Real
 from exactacq.sensing.view_length import ViewLength, of_length_on
@@ -374,6 +374,14 @@ def test_a_zero_that_cannot_be_refined_is_undecided() -> None:
     function.is_vague = True
     with pytest.raises(Undecided, match="is 0 near 3"):
         zero.enclosure(40)
+
+
+def test_a_side_through_the_corner_that_lines_turn_about() -> None:
+    """Its height above the corner does not change with the lines: a series of it is a number."""
+    corner, side, circle_ = ((*map(Real, numbers),) for numbers in ((0, 0, 1, 0, 1), (0, 0, 1, 1), (3, 0, 1)))
+    parts = (("lines through a corner", corner), ("line", side), ("near crossing", circle_))
+    with pytest.raises(ValueError, match="not one zero"):
+        zero_between(ViewLength.of_parts(parts), fmpq(-1, 4), fmpq(1, 4))
 
 
 class Stairs(Sine):

@@ -62,7 +62,7 @@ class Node(ABC):
     Lives as long as a real holds it; ball, height and generators are computed once.
     """
 
-    __slots__ = ("__weakref__", "_ball", "_bits", "_generators", "_height", "args")
+    __slots__ = ("__weakref__", "_ball", "_bits", "_generators", "_height", "_middle", "args")
     _interned: ClassVar[WeakValueDictionary[Hashable, Node]] = WeakValueDictionary()
 
     args: tuple[Any, ...]
@@ -70,6 +70,7 @@ class Node(ABC):
     _bits: int
     _generators: Generators | None
     _height: float | None
+    _middle: arb | None
 
     @classmethod
     def make(cls, *args: Any) -> Node:
@@ -83,6 +84,7 @@ class Node(ABC):
             if node is None:
                 node = object.__new__(cls)
                 node.args, node._bits, node._height, node._generators = args, 0, None, None
+                node._middle = None
                 Node._interned[key] = node
             return node
 
@@ -99,6 +101,13 @@ class Node(ABC):
         """An enclosure computed with at least *bits* working bits, which this method sets itself."""
         with workprec(bits):
             return self.ball(bits)
+
+    @property
+    def middle(self) -> arb:
+        """About its value: the middle of a ball, always the same one."""
+        if self._middle is None:
+            self._middle = self.precise_ball(ORDERING_BITS).mid()
+        return self._middle
 
     def height(self) -> float:
         """Upper bound of the absolute logarithmic height, base 2."""
@@ -127,20 +136,9 @@ class Node(ABC):
         """Closed form."""
 
 
-def compare_atoms(a: Atom, b: Atom) -> int:
-    """-1, 0 or 1 in an order of atoms that is the same in all processes, but where balls overlap."""
-    if isinstance(a, int) and isinstance(b, int):
-        return (a > b) - (a < b)
-    if isinstance(a, int) or isinstance(b, int):
-        return -1 if isinstance(a, int) else 1
-    return _compare(a.precise_ball(ORDERING_BITS), b.precise_ball(ORDERING_BITS), hash(a), hash(b))
-
-
-def _compare(one: arb, other: arb, first: int, second: int) -> int:
-    """By balls or, where these overlap, by hashes: what may be equal keeps its order as balls get finer."""
-    if one.overlaps(other):
-        return (first > second) - (first < second)
-    return -1 if one < other else 1
+def order_of_atom(atom: Atom) -> tuple[bool, Any, int]:
+    """What atoms are put in order by: it stays, and is the same in all processes unless balls are equal."""
+    return (False, atom, 0) if isinstance(atom, int) else (True, atom.middle, hash(atom))
 
 
 # Keys cannot be hashed any more once the interpreter takes its modules apart.
@@ -168,6 +166,10 @@ class Sqrt(Node):
         return sqrt(self.args[0].sympy())
 
 
+def _middle_of_factor(factor: Form) -> arb:
+    return factor.ball(ORDERING_BITS).mid()
+
+
 class Product(Node):
     """The product of two reals that is not multiplied out."""
 
@@ -176,10 +178,9 @@ class Product(Node):
 
     @classmethod
     def make(cls, *args: Any) -> Node:
-        # One node for both orders of the factors, and the same one in all processes.
-        a, b = args
-        order = _compare(a.ball(ORDERING_BITS), b.ball(ORDERING_BITS), hash(a.key), hash(b.key))
-        return super().make(*((a, b) if order <= 0 else (b, a)))
+        # One node for both orders of the factors, which has them in one that other processes have too.
+        key = cls, frozenset(factor.key for factor in args)
+        return cls._intern(key, tuple(sorted(args, key=_middle_of_factor)))
 
     def _evaluate(self, bits: int) -> arb:
         return self.args[0].working_ball(bits) * self.args[1].working_ball(bits)

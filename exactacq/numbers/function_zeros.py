@@ -29,8 +29,8 @@ BITS = 256
 FINENESS = 100
 """A cell of 2^-100 that shows neither a sign nor a slope holds a double zero, or is taken to. In a range of
 width w < 1 cells are searched down to 2^-100 w^3."""
-MOST_CELLS = 10_000
-"""Cells of a range that are looked at: some seconds' work. Real drawings take a few hundred."""
+MOST_CELLS = 50_000
+"""Cells of a range that are looked at: some seconds' work. Nearly all searches take a few hundred at most."""
 STALLED_BITS = 1 << 16
 """A zero that is not told better than by its cell with so many bits never is."""
 PROVING_BITS = 1 << 13

@@ -25,7 +25,6 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Iterable, Mapping
 from decimal import Decimal
 from fractions import Fraction
-from functools import cmp_to_key
 from math import gcd, log2
 from typing import TYPE_CHECKING, Any, TypeVarTuple
 
@@ -41,7 +40,7 @@ from exactacq.numbers.atoms import (
     atom_generators,
     atom_height,
     atom_sympy,
-    compare_atoms,
+    order_of_atom,
 )
 from exactacq.numbers.exact import Exact
 from exactacq.numbers.linear_forms import (
@@ -586,7 +585,7 @@ def _node_product(a: Real, b: Real) -> Real:
 def _primitive(x: Real) -> tuple[fmpq, Real]:
     """(c, y) with x = c y, the same y for all rational multiples of x unless these are long."""
     divisor = short_content(x.terms)
-    if x.terms[min(x.terms, key=cmp_to_key(compare_atoms))] < 0:
+    if x.terms[min(x.terms, key=order_of_atom)] < 0:
         divisor = -divisor
     return divisor, x._scaled(1 / divisor)
 

@@ -37,9 +37,9 @@ from exactacq.visibility.rotational_sweep import Passed
 from exactacq.visibility.sensor_range import Range
 
 RUNS_KEPT = 1000
-"""Names of lines of which what they meet is kept at most."""
+"""So many names of lines are kept at most, with what the lines meet."""
 WIDER = 2
-"""A line that is followed for the second time is so for such a multiple of the reach."""
+"""When a line is followed a second time, it is followed for so many times the reach."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,11 +170,12 @@ class LineFollower:
             RunSide(list(self._met(walk, at, role)), walk.blocked, walk.walled)
             for walk, role in zip(walks, (-1, 1), strict=True)
         )
-        here, own = list(self._here(at)), at.feature.edges[-1]
+        here = list(self._here(at))
+        contact, curves = here[0].pin[0], self.table.curves
         for e in walks[0].here:
             if e not in at.feature.edges:
                 # An arc that ends in the contact, and the edge beside it.
-                vertex = own if self.table.following[e] == own else e
+                vertex = e if curves[e].start == contact else self.table.following[e]
                 here.append(self._hit(e, self._vertex(vertex, e), 0, 0.0))
         return FreeRun(self.table, _heading(at), behind, here, ahead, reach)
 

@@ -216,6 +216,7 @@ class Memory:
             legs = [ahead.leg if halt is None else self._halted(ahead, halt)]
         count, reports, retraced = len(self._legs), [], self._is_retraced(piece, legs)
         take_back = self._sensor.savepoint() if len(legs) > 1 else None
+        news = set() if take_back is None else self._news.copy()
         try:
             for k, leg in enumerate(legs):
                 if ahead is None:
@@ -234,6 +235,7 @@ class Memory:
             if take_back is not None:
                 take_back()
                 self._history.cut(1 + self._before[-1])
+                self._news = news
             raise
         self._legs.append(legs)
         self._before.append(self._before[-1] + len(legs))

@@ -314,8 +314,11 @@ def _tight(value: Callable[[Any], Any], t: Any) -> Any:
     if isinstance(found, Real) or ball_sign(head := _head(found)):
         return found
     cell = _head(t)
-    middle = cell.mid()
-    head = head.intersection(value(middle) + value(arb_series([cell, 1], prec=2))[1] * (cell - middle))
+    middle, along = cell.mid(), value(arb_series([cell, 1], prec=2))
+    if isinstance(along, arb):
+        # It does not depend on t.
+        return found
+    head = head.intersection(value(middle) + along[1] * (cell - middle))
     return head if isinstance(found, arb) else arb_series([head, *list(found)[1:]], prec=found.prec)
 
 

@@ -62,12 +62,11 @@ class Robot(Observer):
     *start* and *radius* default to the scene's own; both are rational. The robot sees all the way as it
     moves: grazing does not block its sight. What it may do are the methods that move it, `go_to`, `go_along`,
     `walk`, `walk_to`, `circle`, `follow`, `take_up`, `take` and `go_back`; all else are questions, and
-    leave it where it is.
-    It tells nothing of the scene but what it has seen, the links that begin at a boundary all around which it
-    has walked, and whether a route crosses a boundary at a known point. A terrain's border is no wall, and is
-    not seen. Moves take a *reason*, a text or a `Decision` with the robot's numbers
-    of obstacles, which the run tells with the event that begins the move; a move of no length has none.
-    The reason may be a function that gives one of these: it is called when somebody reads the reason.
+    leave it where it is. It tells nothing of the scene but what it has seen, the links that begin at a
+    boundary all around which it has walked, and whether a route crosses a boundary at a known point. A
+    terrain's border is no wall, and is not seen. Moves take a *reason*, a text or a `Decision` with the
+    robot's numbers of obstacles, which the run tells with the event that begins the move; a move of no length
+    has none. The reason may be a function that gives one of these: it is called when somebody reads it.
 
     One that is *confined* keeps within the scene's `terrain` and knows its border; it starts in the SW
     corner. Its obstacles are the components that the border leaves of the scene's and that the robot can
@@ -160,8 +159,8 @@ class Robot(Observer):
         A lap that was interrupted goes on if the hand is the same: the robot is round where it began. If it
         is stopped just there, the next call without *to* says so and does not move it. *to* is a point of the
         boundary; if it is none, the robot finds that out by coming round. Or it is a segment, as an M-line:
-        the robot halts where the boundary next meets it, touches it or not, and if an edge lies along it, at
-        both ends of what they have in common; but not where it sets out or where the lap ends. For *until*
+        the robot halts where the boundary next crosses or touches it, and if an edge lies along it, at both
+        ends of what they have in common; but not where it sets out or where the lap ends. For *until*
         and *just_past* see `go_to`. `MoveError` at no boundary and at one that a border cuts, ValueError for
         another hand, other kinds or a segment without length.
 

@@ -16,7 +16,7 @@ from exactacq.kernel.single_lines import Spot
 from exactacq.scene.edge_table import EdgeTable
 
 SLACK = 1e-9
-"""What is farther than the reach by such a part of it is met too; whether it blocks is not asked there."""
+"""By this part of the reach edges may be farther away and count as met; whether they block is not asked."""
 
 
 class Hit(NamedTuple):
@@ -67,15 +67,17 @@ class FreeRun:
         self, here: Hit, heading: tuple[float, float], reach: float
     ) -> tuple[RunSide, RunSide] | None:
         """What is met behind a place and ahead of it, as one goes that way; None if it is not all known."""
-        is_onward = heading[0] * self._heading[0] + heading[1] * self._heading[1] > 0
+        # As one goes, what was ahead on the way of the run may be behind.
+        onward = 1 if heading[0] * self._heading[0] + heading[1] * self._heading[1] > 0 else -1
         found: list[RunSide] = []
-        for is_ahead in (not is_onward, is_onward):
-            sense = 1 if is_ahead else -1
-            if not self._sides[is_ahead].blocked and sense * here.along + reach > self._reach:
+        for role in (-1, 1):
+            sense = role * onward
+            if not self._sides[sense > 0].blocked and sense * here.along + reach > self._reach:
                 return None
             side = self._within(here, sense, reach)
-            role = 1 if found else -1
             hits = [hit._replace(place=role * abs(hit.place - here.place)) for hit in side.hits]
+            # Edges that are met in one place are always in one order, whichever way the run went.
+            hits.sort(key=lambda hit: (abs(hit.place), role * hit.edge))
             found.append(side._replace(hits=hits))
         return found[0], found[1]
 

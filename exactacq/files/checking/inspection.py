@@ -36,6 +36,8 @@ BEST, BEST_PARTS = 2, 4
 """How many of the trials a start is looked for with, and how many of those of a part of a plan."""
 BY_ARCS = "--flatten LENGTH"
 """Readers that refuse a curve say how to read it."""
+COARSE = (fmpq(10) ** 9, fmpq(1), fmpq(1, 1000))
+"""Lengths with which such a drawing is read to find out how large it is."""
 TOGETHER = {"tolerance", "union", "flatten"}
 """Options that are also tried all together."""
 
@@ -174,14 +176,16 @@ def _first_read(source: NamedSource, start: Any, options: dict[str, Any]) -> tup
     except FormatError as error:
         if BY_ARCS not in str(error):
             raise
-        # However coarse the arcs are, the ends of the curves tell how large the drawing is.
-        size = size_of(source.contents(start, {**options, "flatten": fmpq(1)}))
-        if not 0 < size < LIMIT:
-            raise
-    by_arcs = {**options, "flatten": near_enough(size)}
-    contents = source.contents(start, by_arcs)
-    note = f"read with {words(by_arcs)}: it has curves that are no arcs"
-    return replace(contents, notes=(note, *contents.notes)), by_arcs
+        for length in COARSE:
+            with suppress(FormatError):
+                # However coarse the arcs are, the ends of curves tell how large the drawing is.
+                size = size_of(source.contents(start, {**options, "flatten": length}))
+                if 0 < size < LIMIT:
+                    by_arcs = {**options, "flatten": near_enough(size)}
+                    contents = source.contents(start, by_arcs)
+                    note = f"read with {words(by_arcs)}: it has curves that are no arcs"
+                    return replace(contents, notes=(note, *contents.notes)), by_arcs
+        raise
 
 
 class _Inquiry:

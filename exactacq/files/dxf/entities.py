@@ -226,9 +226,12 @@ def _entities(layout: Iterable[Any], drawing: Drawing, unseen: _Unseen) -> Itera
         layer = outer if outer is not None and layer == "0" else layer
         is_hidden = is_hidden or unseen.hides(entity, layer)
         if entity.dxftype() == "MLINE":
-            multiple += 1
-            lines = (part for part in entity.virtual_entities() if part.dxftype() in ("LINE", "ARC"))
-            stack.append((lines, layer, depth, is_hidden))
+            lines = [part for part in entity.virtual_entities() if part.dxftype() in ("LINE", "ARC")]
+            stack.append((iter(lines), layer, depth, is_hidden))
+            if lines:
+                multiple += 1
+            else:
+                drawing.dropped["MLINE without a style"] += 1
         elif entity.dxftype() != "INSERT":
             yield entity, layer, is_hidden
         elif depth >= MAX_DEPTH:
@@ -243,7 +246,7 @@ def _entities(layout: Iterable[Any], drawing: Drawing, unseen: _Unseen) -> Itera
     for number, what in ((expanded, "block reference"), (multiple, "MLINE")):
         if number:
             drawing.notes.append(
-                f"expanded {count(number, what)}; their content is placed in double precision"
+                f"expanded {count(number, what)}: what is in it is placed in double precision"
             )
 
 
