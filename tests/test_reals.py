@@ -12,6 +12,7 @@ from decimal import Decimal
 from fractions import Fraction
 from functools import reduce
 from math import inf, isqrt, nextafter
+from random import Random
 
 import mpmath
 import pytest
@@ -21,6 +22,7 @@ from hypothesis import strategies as st
 
 from exactacq.errors import FormatError, Undecided
 from exactacq.numbers import sign
+from exactacq.numbers.atoms import Node
 from exactacq.numbers.function_zeros import roots
 from exactacq.numbers.precision import workprec
 from exactacq.numbers.rationals import ball_sign, nearest_float, rational, rational_sign, round_to_float
@@ -473,12 +475,15 @@ def test_the_middle_and_the_sign_of_a_ball(middle: float, radius: float) -> None
     assert ball_sign(ball) == (at > reach) - (-at > reach)
 
 
-def test_a_product_is_one_node_however_fine_its_factors_are() -> None:
-    """Of two factors that differ by 2^-64, whose order balls tell once they are finer."""
-    below = 2**129
-    one = (2 + Real(below).sqrt()).sqrt()
-    other = (3 + Real(below - 2 * isqrt(below)).sqrt()).sqrt()
-    before = one * other
-    (atom,) = (one - other).terms.keys() - other.terms.keys()
-    atom.precise_ball(300)
-    assert (other * one).key == (one * other).key == before.key
+@pytest.mark.parametrize("finer", [0, 1])
+def test_a_product_is_one_node_however_fine_its_factors_are(finer: int) -> None:
+    """Of two factors that differ by some 2^-66: their order in balls changes as one of them is refined."""
+    rng = Random(1)
+    for _ in range(60):
+        below = rng.randrange(2**128, 2**130)
+        one, other = (2 + Real(below).sqrt()).sqrt(), (3 + Real(below - 2 * isqrt(below)).sqrt()).sqrt()
+        before = one * other
+        (atom,) = (one, other)[finer].terms
+        assert isinstance(atom, Node)
+        atom.precise_ball(300)
+        assert (Real.of_atom(atom) * (other, one)[finer]).key == before.key
