@@ -246,7 +246,7 @@ def _entities(layout: Iterable[Any], drawing: Drawing, unseen: _Unseen) -> Itera
     for number, what in ((expanded, "block reference"), (multiple, "MLINE")):
         if number:
             drawing.notes.append(
-                f"expanded {count(number, what)}: what is in it is placed in double precision"
+                f"expanded {count(number, what)}; their content is placed in double precision"
             )
 
 
