@@ -167,7 +167,7 @@ class LineFollower:
         """Follow a line by its exact contacts within some reach."""
         walks = walk_line(self.table, at.sector, at.t, reach)
         behind, ahead = (
-            RunSide(list(self._met(walk, at, role)), walk.blocked, walk.walled)
+            RunSide(list(self._met(walk, at, role)), walk.blocked)
             for walk, role in zip(walks, (-1, 1), strict=True)
         )
         here = list(self._here(at))

@@ -16,7 +16,7 @@ from exactacq.kernel.single_lines import Spot
 from exactacq.scene.edge_table import EdgeTable
 
 SLACK = 1e-9
-"""By this part of the reach edges may be farther away and count as met; whether they block is not asked."""
+"""Edges count as met that are farther than the reach by at most this part of it, as floats tell."""
 
 
 class Hit(NamedTuple):
@@ -32,11 +32,10 @@ class Hit(NamedTuple):
 
 
 class RunSide(NamedTuple):
-    """What is met on one side of a place, nearest first; the last may block, where it may be *walled*."""
+    """What is met on one side of a place, nearest first; whether the line is blocked at the last."""
 
     hits: list[Hit]
     blocked: bool
-    walled: bool
 
 
 class FreeRun:
@@ -93,6 +92,4 @@ class FreeRun:
         again = [hit for hit in hits if hit.edge in within]
         limit = max(far, *(away(hit) for hit in again if kinds[hit.edge] == STRAIGHT), 0.0)
         near = [hit for hit in hits if away(hit) <= (limit if hit.edge in within else far)]
-        last = away(near[-1]) if near else 0.0
-        blocked = side.blocked and len(near) == len(hits) and (side.walled or last <= reach * (1 - SLACK))
-        return RunSide(near, blocked, side.walled)
+        return RunSide(near, side.blocked and len(near) == len(hits))

@@ -80,13 +80,12 @@ def _contacts(start: Point, end: Point, direction: Point, curve: Curve) -> list[
 class LineWalk:
     """The contacts (signed parameter, edge) of a line within reach, nearest first; the last may block it.
 
-    It is *walled* if it surely crosses an edge there. The edges *here* are met where it begins.
+    The edges *here* are met where it begins.
     """
 
     hits: list[tuple[Real, int]]
     here: list[int]
     blocked: bool = False
-    walled: bool = False
 
 
 def walk_line(table: EdgeTable, sector: Sector, t: Real, reach: float) -> tuple[LineWalk, LineWalk]:
@@ -158,7 +157,7 @@ def _until_blocked(
                 return LineWalk(hits[:k], here, blocked=True)
             previous, met = tau, set()
         if e in walls:
-            return LineWalk(hits[: k + 1], here, blocked=True, walled=True)
+            return LineWalk(hits[: k + 1], here, blocked=True)
         if e >= 0:
             met.add(table.owners[e])
     return LineWalk(hits, here)
