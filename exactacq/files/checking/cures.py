@@ -17,6 +17,7 @@ from exactacq.files.checking.starts import rounded_up
 from exactacq.files.loops.assembly import default_tolerance, in_full
 from exactacq.files.loops.contents import AS_TOLD, Contents
 from exactacq.files.loops.drawing import is_named, main_box
+from exactacq.files.repairs.flattened import BY_ARCS
 from exactacq.geometry.points import Point
 from exactacq.geometry.strokes import Floats
 from exactacq.numbers.rationals import nearest_float, plain
@@ -178,7 +179,7 @@ def _proposals(contents: Contents, found: Judged) -> Iterator[Options]:
         yield from _fewer_layers(contents, found, meeting)
     if None in closing:
         yield _walls_of(contents)
-    if any("--flatten" in note for note in contents.notes):
+    if any(BY_ARCS in note for note in contents.notes):
         yield {"flatten": near_enough(size)}
 
 

@@ -19,6 +19,7 @@ from exactacq.files.checking.lines import OpenChain, open_chains
 from exactacq.files.checking.sketch import Sketch, places_of
 from exactacq.files.checking.starts import Beginning, beginning, vision
 from exactacq.files.loops.contents import Contents
+from exactacq.files.repairs.flattened import BY_ARCS
 from exactacq.files.rereading import rereading
 from exactacq.files.sources import NamedSource
 from exactacq.geometry.intersections import ContactKind
@@ -34,8 +35,6 @@ STEPS = 4
 """Reading, violations, cures, and a start."""
 BEST, BEST_PARTS = 2, 4
 """How many of the trials a start is looked for with, and how many of those of a part of a plan."""
-BY_ARCS = "--flatten LENGTH"
-"""Readers that refuse a curve say how to read it."""
 COARSE = (fmpq(10) ** 9, fmpq(1), fmpq(1, 1000))
 """Lengths with which such a drawing is read to find out how large it is."""
 TOGETHER = {"tolerance", "union", "flatten"}

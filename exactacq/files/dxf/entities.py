@@ -27,7 +27,7 @@ from exactacq.files.loops.chains import ZERO, Chain, Corner
 from exactacq.files.loops.drawing import Drawing, LayerChoice
 from exactacq.files.loops.rational_arcs import arc_corners
 from exactacq.files.repairs.bezier import BezierPiece, spline
-from exactacq.files.repairs.flattened import Flattening, ellipse
+from exactacq.files.repairs.flattened import BY_ARCS, Flattening, ellipse
 from exactacq.files.rereading import once
 from exactacq.files.source import MAX_EDGES, one_line, read_bytes
 from exactacq.numbers.rationals import rational
@@ -89,7 +89,7 @@ def read_drawing(path: Path, layers: Iterable[str] | None, flattening: Flattenin
     if flattening is not None:
         drawing.notes += flattening.notes()
     elif drawing.dropped["ELLIPSE"] or drawing.dropped["SPLINE"]:
-        ways.append("ellipses and splines are read with --flatten LENGTH, by arcs within that length")
+        ways.append(f"ellipses and splines are {BY_ARCS}")
     drawing.readable = "; ".join(ways)
     if drawing.layers:
         drawing.unit = _unit(document)

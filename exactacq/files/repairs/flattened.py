@@ -31,6 +31,10 @@ DECIMALS = 10**10
 """Angles are rounded to such parts of a degree: doubles near multiples of 90 degrees become these."""
 
 
+BY_ARCS = "read by arcs within a distance, with --flatten LENGTH"
+"""What messages about curves that are not read propose, and notes about those that are left out."""
+
+
 @dataclass(slots=True)
 class Flattening:
     """How far curves and what stands for them may be apart, and what was flattened so far."""

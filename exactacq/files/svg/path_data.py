@@ -12,6 +12,7 @@ from exactacq.errors import FormatError
 from exactacq.files.loops.chains import ZERO, Corner, root_above
 from exactacq.files.loops.rational_arcs import arc_of_radius, rational_turn
 from exactacq.files.repairs.bezier import BezierPiece, arc_pieces, polynomial
+from exactacq.files.repairs.flattened import BY_ARCS
 from exactacq.files.source import MAX_EDGES, one_line
 from exactacq.files.svg.transforms import NUMBER
 from exactacq.numbers.rationals import rational
@@ -106,8 +107,7 @@ class _PathReader:
         kind, relative = command.upper(), command.islower()
         if kind in _CURVES and not self.curved:
             raise FormatError(
-                f"a {_CURVES[kind]} curve is not read: replace it by lines and arcs, or have it read by arcs "
-                "within a distance, with --flatten LENGTH"
+                f"a {_CURVES[kind]} curve is not read: replace it by lines and arcs, or have it {BY_ARCS}"
             )
         if kind not in _ARGUMENTS:
             self._refuse(f"a command other than {command}")
@@ -169,7 +169,7 @@ class _PathReader:
                 return
             raise FormatError(
                 "an elliptical arc (A of two radii) is not read: replace it by circular ones, or have it "
-                "read by arcs within a distance, with --flatten LENGTH"
+                f"{BY_ARCS}"
             )
         if not (across and along):
             self.found[-1].line(end)
