@@ -7,7 +7,7 @@ to what was learned, and a map of any of them is made at once: it looks edges up
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
@@ -215,14 +215,15 @@ class Memory:
         else:
             legs = [ahead.leg if halt is None else self._halted(ahead, halt)]
         count, reports, retraced = len(self._legs), [], self._is_retraced(piece, legs)
-        take_back = self._sensor.savepoint() if len(legs) > 1 else None
-        news = set() if take_back is None else self._news.copy()
+        undo: list[Callable[[], None]] = []
         try:
             for k, leg in enumerate(legs):
                 if ahead is None:
                     took = self._sensor.ahead(leg, retraced)
                 else:
                     took = ahead if halt is None else self._sensor.upto(ahead, leg, retraced)
+                if len(legs) > 1:
+                    undo.append(self._savepoint(took))
                 notices, learned = self._sensor.follow(took)
                 self._learn(learned)
                 for n in notices:
@@ -232,10 +233,10 @@ class Memory:
                     inside = not (at_start or at_end)
                     reports.append(_report(n, k, after, inside))
         except Undecided:
-            if take_back is not None:
+            for take_back in reversed(undo):
                 take_back()
+            if undo:
                 self._history.cut(1 + self._before[-1])
-                self._news = news
             raise
         self._legs.append(legs)
         self._before.append(self._before[-1] + len(legs))
@@ -268,6 +269,19 @@ class Memory:
         lines = ((name, ray) for name in names for ray in facts.rays if name[0] in ray.lines)
         self._halt = HaltPlace(place, facts, tuple(lines))
         return replace(part, halts=(*part.halts, self._halt))
+
+    def _savepoint(self, ahead: Ahead) -> Callable[[], None]:
+        """A function that takes back what a leg will have told, but for the history."""
+        forget, more = (
+            self._sensor.savepoint(ahead),
+            self._sensor.targets.of_edges(ahead.learned) - self._news,
+        )
+
+        def take_back() -> None:
+            forget()
+            self._news -= more
+
+        return take_back
 
     def _learn(self, learned: Mapping[int, Cover]) -> None:
         self._history.learn(learned)

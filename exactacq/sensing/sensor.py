@@ -11,6 +11,7 @@ from collections import ChainMap, deque
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 from functools import cmp_to_key, partial
+from typing import Any
 
 from exactacq.errors import deciding
 from exactacq.geometry.interval_union import Cover, Interval
@@ -199,16 +200,24 @@ class Sensor:
         """From where on a leg edges are seen, also those of acquired obstacles."""
         return LegSights(self.complex, leg, self._view, way)
 
-    def savepoint(self) -> Callable[[], None]:
-        """A function that takes back all that is learned from now on. Linear in what is known."""
-        covers, known, here = self.covers.copy(), self._known.copy(), self._here
-        seen, acquired, incomplete = self.seen.copy(), self.acquired.copy(), self.incomplete.copy()
-        in_sight, done = self.in_sight.copy(), self.complex.done.copy()
+    def savepoint(self, ahead: Ahead) -> Callable[[], None]:
+        """A function that takes back what following a leg will have told. Linear in what that is."""
+        obstacles = {notice.obstacle for notice in ahead.notices}
+        acquired = (notice.obstacle for notice in ahead.notices if notice.kind is EventKind.ACQUIRE)
+        edges = {e for k in acquired for e in self.targets.alone(k)}
+        here, own = self._here, (self.seen, self.acquired, self.incomplete, self.in_sight)
+        sets = [*((now, obstacles, now & obstacles) for now in own)]
+        sets.append((self.complex.done, edges, self.complex.done & edges))
+        covers, known = ({e: now.get(e) for e in ahead.learned} for now in (self.covers, self._known))
 
         def take_back() -> None:
-            self.covers, self._known, self._here = covers, known, here
-            self.seen, self.acquired, self.incomplete = seen, acquired, incomplete
-            self.in_sight, self.complex.done = in_sight, done
+            self._here = here
+            for now, touched, before in sets:
+                now.difference_update(touched)
+                now.update(before)
+            for e, cover in covers.items():
+                _put_back(self.covers, e, cover)
+                _put_back(self._known, e, known[e])
 
         return take_back
 
@@ -289,3 +298,11 @@ class Sensor:
         acquisition = Acquisition(shares, k, ChainMap(seen, self.covers))
         u, place = acquisition.place()
         return Notice(EventKind.ACQUIRE, k, u, place, facts=acquisition.facts(place))
+
+
+def _put_back(now: dict[int, Any], e: int, before: Any) -> None:
+    """Give a key of a table the value that it had, None if none."""
+    if before is None:
+        now.pop(e, None)
+    else:
+        now[e] = before
