@@ -155,8 +155,8 @@ def put_on_line(point: Point, start: Point, end: Point) -> None:
     put_past_corner(point, start, end)
     for line in _lines(start, end):
         match line:
-            case _CircleTangent(_, carrier, touch):
-                put_on_tangent(point, start, carrier, touch)
+            case _CircleTangent(_, carrier, _):
+                put_on_tangent(point, start, carrier, touch_on_tangent(start, end, carrier))
             case _CircleNormal(_, carrier):
                 put_on_normal(point, start, carrier)
             case _CornerLine(_, corner):

@@ -123,7 +123,8 @@ class FamilyClipper:
         if self.range.order(place, near[0]) > 0:
             return
         if self.range.order(place, far[0]) > 0:
-            along = far[0] - place
+            # Along the run: its numbers are simpler than those of the way to it.
+            along = far[0] - near[0]
             last = place + along * (self.range.radius / along.norm_sq().sqrt())
             far = last, self.rails[shown].parameter(last)
         one, other = (LineView(Real(0), (place, point), (here, u)) for point, u in (near, far))

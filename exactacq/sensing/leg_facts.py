@@ -18,6 +18,7 @@ from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.end_names import holds
 from exactacq.sensing.leg_views import Share, Shares
 from exactacq.sensing.line_points import Role
+from exactacq.sensing.straight_way import facts_on_leg
 from exactacq.sensing.view_families import LineView
 from exactacq.visibility.place_facts import (
     NOTHING_KNOWN,
@@ -70,7 +71,7 @@ class LegFacts:
         some = rays or held or rim or tangent
         found = PlaceFacts([*rays.values()], held, rim, tangent) if some else NOTHING_KNOWN
         # Last: of several forms of one ray that of the way counts, which `OwnLine` uses too.
-        return found.joined(self._shares.leg.facts(table, place))
+        return found.joined(facts_on_leg(self._shares.view, table, self._shares.leg, place))
 
     @cached_property
     def _ends(self) -> list[tuple[LineView, Share]]:

@@ -156,7 +156,7 @@ class Shares:
             view = self.end_views[1]
         else:
             place = leg.start if u is leg.first else leg.end
-            view = self.view(place, leg.own(u), partial(leg.facts, self.complex.table, place))
+            view = view_from_end(self.view, self.complex.table, leg, place, leg.own(u))
         return view.pinned(end, family, side)
 
     def _families(self, known: Mapping[int, Sequence[Span]] | None) -> Families:

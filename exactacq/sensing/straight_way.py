@@ -27,6 +27,7 @@ from exactacq.sensing.line_points import Role
 from exactacq.sensing.view_families import FreeViews, LineView
 from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.visibility.line_names import Names
+from exactacq.visibility.place_facts import PlaceFacts
 
 View: TypeAlias = "Callable[..., Seen]"
 """Gives what is seen from a point, given the edges through it, if these are known, and what else is known."""
@@ -160,15 +161,21 @@ class StraightWay:
 def view_from_end(
     view: View, table: EdgeTable, leg: Leg, end: Point, own: tuple[int, ...] | None = None
 ) -> Seen:
-    """What is seen from an end of a leg, with its edges if these are known.
+    """What is seen from an end of a leg, with its edges if these are known; *view* makes or knows it."""
+    return view(end, own, partial(facts_on_leg, view, table, leg, end))
 
-    What a straight way comes to beyond its last place is in sight from the first, past what its line touches.
+
+def facts_on_leg(view: View, table: EdgeTable, leg: Leg, place: Point) -> PlaceFacts:
+    """What is known of the view from a place of a leg by the leg itself.
+
+    What a straight way comes to beyond the place is in sight from its start, past what its line touches.
     """
-    facts = partial(leg.facts, table, end)
-    if end is leg.end and leg.edge is None and leg.touches:
-        onward = leg.end - leg.start
-        facts = partial(facts, lambda: view_from_end(view, table, leg, leg.start).ahead(leg.touches, onward))
-    return view(end, own, facts)
+    if leg.edge is not None or not leg.touches or place is leg.start:
+        return leg.facts(table, place)
+    onward = leg.end - leg.start
+    return leg.facts(
+        table, place, lambda: view_from_end(view, table, leg, leg.start).ahead(leg.touches, onward)
+    )
 
 
 def _is_at_range(table: EdgeTable, halts: Iterable[HaltPlace], free_views: FreeViews, view: LineView) -> bool:
