@@ -15,8 +15,10 @@ from typing import NamedTuple, TypeAlias
 
 from flint import fmpq
 
-from exactacq.geometry.late import balls, may_be_one
+from exactacq.geometry.coordinates import cross, dot
+from exactacq.geometry.late import balls, from_to, may_be_one
 from exactacq.geometry.points import Point
+from exactacq.numbers.rationals import ball_sign
 
 
 class Carrier(NamedTuple):
@@ -95,14 +97,39 @@ def _is_around(point: Point, center: Point, square: fmpq) -> bool:
 
 
 def put_on_tangent(point: Point, origin: Point, carrier: Carrier | None, touch: Point | None = None) -> None:
-    """Note that a point was made on the line from another one that touches a circle, in *touch* if given."""
-    if carrier is not None and _tangent(origin, point, carrier) is None:
-        _put(point, _CircleTangent(origin, carrier, touch))
+    """Note that a point was made on the line from another one that touches a circle, in *touch* if given.
+
+    That one may have been made itself on the line from a corner that touches the circle: if both touch it on
+    one side, they are one line.
+    """
+    if carrier is None or _tangent(origin, point, carrier) is not None:
+        return
+    _put(point, _CircleTangent(origin, carrier, touch))
+    for fact in _facts(origin):
+        if isinstance(fact, _CircleTangent) and fact.carrier == carrier:
+            side = tangent_side(origin, point, carrier)
+            if side and side == tangent_side(origin, fact.origin, carrier):
+                put_past_corner(point, origin, fact.origin)
+
+
+def tangent_side(origin: Point, point: Point, carrier: Carrier) -> int:
+    """1 or -1 as a line from a point through another one touches a circle on its left or right; 0 if unsure.
+
+    Both points may lie on different sides of the circle: the line is taken towards it.
+    """
+    center = Point(carrier.x, carrier.y)
+    w, v = from_to(balls(origin), balls(center)), from_to(balls(origin), balls(point))
+    return ball_sign(cross(v, w)) * ball_sign(dot(v, w))
 
 
 def is_tangent(start: Point, end: Point, carrier: Carrier | None) -> bool:
     """Whether the line of two points is known to touch a circle."""
     return _tangent(start, end, carrier) is not None
+
+
+def circles_touched(start: Point, end: Point) -> list[Carrier]:
+    """The circles that the line of two points is known to touch."""
+    return [line.carrier for line in _lines(start, end) if isinstance(line, _CircleTangent)]
 
 
 def touch_on_tangent(start: Point, end: Point, carrier: Carrier | None) -> Point | None:
@@ -186,6 +213,23 @@ def _places(line: _Line) -> tuple[Point, ...]:
         case _CornerLine(origin, corner):
             return origin, corner
     return (line.origin,)
+
+
+def put_equal(point: Point, other: Point) -> None:
+    """Note that two points are equal: each takes over what is known of the other."""
+    for taker, facts in ((point, _facts(other)), (other, _facts(point))):
+        for fact in facts:
+            match fact:
+                case Carrier():
+                    put_on(taker, fact)
+                case _CircleAbout(center, square):
+                    put_around(taker, center, square)
+                case _CircleTangent(origin, carrier, touch):
+                    put_on_tangent(taker, origin, carrier, touch)
+                case _CircleNormal(origin, carrier):
+                    put_on_normal(taker, origin, carrier)
+                case _CornerLine(origin, corner):
+                    put_past_corner(taker, origin, corner)
 
 
 def _put(point: Point, fact: _Fact) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from exactacq.geometry.constructions import put_equal
 from exactacq.geometry.curve_parameter import ZERO, Rail
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
@@ -62,8 +63,14 @@ class Cover:
         after: list[Interval] = []
         for old in self.intervals:
             at_low = old.low.compare(new.low)
-            if at_low <= 0 and old.high.compare(new.high) >= 0:
-                return self
+            if at_low == 0 and old.start is not new.start:
+                put_equal(old.start, new.start)
+            if at_low <= 0:
+                at_high = old.high.compare(new.high)
+                if at_high == 0 and old.end is not new.end:
+                    put_equal(old.end, new.end)
+                if at_high >= 0:
+                    return self
             if at_low > 0 and old.low.compare(new.high) > 0:
                 after.append(old)
             elif at_low < 0 and old.high.compare(new.low) < 0:

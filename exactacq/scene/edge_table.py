@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from exactacq.cached import cached_property
 from exactacq.geometry.box_index import bounds, circles, united
+from exactacq.geometry.constructions import circles_touched, corners_passed
 from exactacq.geometry.coordinates import raw
 from exactacq.geometry.curve_images import curve_image
 from exactacq.geometry.curves import Arc, Curve, Segment
@@ -114,12 +115,29 @@ class EdgeTable:
     @cached_property
     def circles(self) -> dict[int, int]:
         """For every arc the number of the first arc on its circle."""
-        numbers: dict[Hashable, int] = {}
-        return {
-            e: numbers.setdefault((*raw(curve.center), curve.radius_sq), e)
-            for e, curve in enumerate(self.curves)
-            if isinstance(curve, Arc)
-        }
+        arcs = ((e, curve) for e, curve in enumerate(self.curves) if isinstance(curve, Arc))
+        return {e: self._first_arcs.setdefault((*raw(a.center), a.radius_sq), e) for e, a in arcs}
+
+    @cached_property
+    def _first_arcs(self) -> dict[Hashable, int]:
+        """The first arc on each circle, by centre and squared radius, as `circles` comes to them."""
+        return {}
+
+    def known_touched(self, start: Point, end: Point) -> list[int]:
+        """The features that the line of two points is known to touch by how these were made, however far."""
+        numbers = self.line_numbers
+        passed = (corner for corner in corners_passed(start, end) if not corner.is_late)
+        corners = (v for corner in passed for v in self.vertices_at(corner))
+        arcs = (self._first_arcs.get(circle) for circle in circles_touched(start, end))
+        found = [numbers.feature(v, False) for v in corners if not self.full[v]]
+        return found + [numbers.feature(e, True) for e in arcs if e is not None]
+
+    def vertices_at(self, point: Point) -> list[int]:
+        """The vertices at a point."""
+        if point.rational is None:
+            return []
+        near = self.around(point.xy, point.xy, 0.0)
+        return [e for e in near if self.vertices[e] == point.rational]
 
     def arc_on(self, circle: int) -> Arc:
         """The first arc on a circle, which is given as a feature (see `line_numbers`)."""

@@ -365,12 +365,13 @@ def _through_space(table: EdgeTable, way: Segment) -> list[Leg]:
     corners = _corners_on(table, way)
     touches = [table.line_numbers.feature(number, False) for number, _ in corners]
     touches += [table.line_numbers.feature(number, True) for number in _circles_beside(table, way)]
+    touches += table.known_touched(way.start, way.end)
     legs = []
     for piece in _between_corners(way, corners):
         rail = Rail(_rational_carrier(piece) or piece)
         low, high = rail.parameter(piece.start), rail.parameter(piece.end)
         span = Interval(low, piece.start, high, piece.end)
-        legs.append(Leg(rail, None, span, True, tuple(touches)))
+        legs.append(Leg(rail, None, span, True, tuple(dict.fromkeys(touches))))
     return legs
 
 

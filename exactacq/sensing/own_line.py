@@ -67,9 +67,9 @@ class OwnLine:
                 if named or along.cross(corner - start).sign() == 0:
                     yield e, corner
             if isinstance(curve, Arc):
-                named = numbers.feature(e, True) in touches
-                if named or self.way.is_tangent(curve.center, curve.radius_sq):
-                    circle = numbers.feature(e, True)
+                circle = numbers.feature(e, True)
+                named = circle in touches
+                if named or (curve.carrier is not None and self.way.is_tangent(curve.carrier)):
                     foot = self.way.foot_on(circle)[0] if named else self.way.foot(curve.center)
                     if curve.contains(foot):
                         yield e, foot
@@ -88,7 +88,7 @@ class OwnLine:
             if e in own and isinstance(curve, Segment):
                 yield e, max((curve.start, curve.end), key=lambda p: (p - end).dot(onward))
                 continue
-            for point in self._as_seen(view, e, onward, [*self._met(e, end, onward, is_own=e in own)]):
+            for point in self._as_seen(e, onward, [*self._met(e, end, onward, is_own=e in own)]):
                 rail, seen = self.way.clipper.rails[e], Cover(tuple(view.spans[e]))
                 if any(seen.contains(u) for u in parameters(rail, rail.parameter(point))):
                     yield e, point
@@ -105,12 +105,13 @@ class OwnLine:
             if share.sign() > 0:
                 yield end + onward * share
 
-    def _as_seen(self, view: Seen, e: int, onward: Point, met: list[Point]) -> list[Point]:
-        """Where the way's line meets an edge beyond an end, as far as the view from there has these points.
+    def _as_seen(self, e: int, onward: Point, met: list[Point]) -> list[Point]:
+        """Where the way's line meets an edge beyond an end, as the views from both ends have these points.
 
-        Past what the line touches beyond the end, or just there, a sight on the edge ends in one of them.
+        Past what the line touches ahead, or just there, a sight on the edge ends in one of them.
         """
-        for known in view.held_ahead(e, self.way.touches, onward):
+        views = (self._view(end) for end, _ in self.way.ends)
+        for known in (point for view in views for point in view.held_ahead(e, self.way.touches, onward)):
             near = [k for k, point in enumerate(met) if may_be_one(balls(point), balls(known))]
             if len(near) == 1:
                 met[near[0]] = known

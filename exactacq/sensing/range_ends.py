@@ -227,7 +227,8 @@ class RangeEnds:
         k = 1 if one.role is Role.CONTACT else 0
         far = free_views.sides[k]
         if isinstance(sector, Sliding):
-            yield from ((t, None, True) for t in self._beside(sector, curves[far.role]))
+            stops = [end.points[k] for end in (low, high) if end.tight]
+            yield from ((t, None, True) for t in self._beside(sector, curves[far.role], stops))
             return
         # An arc that is met twice is seen where the line enters the obstacle. At the other place no view
         # ends: those beside it are all longer than the range, or all shorter.
@@ -278,11 +279,11 @@ class RangeEnds:
         (cx, cy, dx, dy), (x, y) = line(sector, t.ball(64)), balls(point)
         return ball_sign((x - cx) * dx + (y - cy) * dy) == role
 
-    def _beside(self, sector: Sliding, far: Curve) -> list[Real]:
-        """Where the parallel of a segment at the range meets an edge."""
+    def _beside(self, sector: Sliding, far: Curve, known: list[Point]) -> list[Real]:
+        """Where the parallel of a segment at the range meets an edge; some ends are *known* to lie on it."""
         start, normal = sector.touch(Real(0))
         offset = normal * (self.range.radius / normal.norm_sq().sqrt())
-        return line_contacts(start + offset, Point(*sector.base), far)
+        return line_contacts(start + offset, Point(*sector.base), far, known)
 
     def _square_from_center(self, sector: Sector) -> Real:
         """Squared distance from a sector's centre to the far end of a view that is as long as the range."""

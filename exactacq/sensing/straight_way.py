@@ -6,10 +6,15 @@ from collections.abc import Callable, Iterable
 from functools import partial
 from typing import TypeAlias
 
-from flint import fmpq
-
 from exactacq.cached import cached_property
-from exactacq.geometry.constructions import is_normal, is_put_on, touch_on_tangent
+from exactacq.geometry.constructions import (
+    Carrier,
+    is_normal,
+    is_put_on,
+    is_tangent,
+    tangent_side,
+    touch_on_tangent,
+)
 from exactacq.geometry.curve_images import curve_image
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.late import Pin
@@ -116,7 +121,7 @@ class StraightWay:
         """The way in floats."""
         (ax, ay), (bx, by) = ((rough(p.x), rough(p.y)) for p, _ in self.ends)
         error = margin(UNIT * (abs(ax) + abs(ay) + abs(bx) + abs(by)) + TINY)
-        starts, stops = (self.vertices_at(end) for end, _ in self.ends)
+        starts, stops = (self.table.vertices_at(end) for end, _ in self.ends)
         low, high = bounds(self.span.low, None), bounds(self.span.high, None)
         return WayImage(curve_image(self.line), low, high, (ax, ay, bx, by, error), starts, stops)
 
@@ -136,26 +141,44 @@ class StraightWay:
                 if at[0] == point:
                     image.touching.update((key, family.edges[1]) for key in keys)
 
-    def vertices_at(self, point: Point) -> list[int]:
-        """The vertices at a point."""
-        if point.rational is None:
-            return []
-        x, y = point.xy
-        near = self.table.around((x, y), (x, y), 0.0)
-        numbers = {number for e in near for number in (e, self.table.following[e])}
-        return [number for number in numbers if self.table.vertices[number] == point.rational]
-
     def foot(self, point: Point) -> Point:
         """The place of its line that is nearest to a point."""
         start, along = self.line.start, self.line.direction
         return start + along * ((point - start).dot(along) / along.norm_sq())
 
-    def is_tangent(self, center: Point, radius_sq: fmpq) -> bool:
+    def is_tangent(self, circle: Carrier) -> bool:
         """Whether the way's line touches a circle."""
+        if is_tangent(self.piece.start, self.piece.end, circle):
+            return True
         along = self.line.direction
-        height = along.cross(center - self.line.start)
-        excess: Real = height * height - along.norm_sq() * radius_sq
+        height = along.cross(Point(circle.x, circle.y) - self.line.start)
+        excess: Real = height * height - along.norm_sq() * circle.square
         return excess.sign() == 0
+
+    @cached_property
+    def own_lines(self) -> frozenset[int]:
+        """Numbers of its own line (see `line_keys`), if a robot that halted at an end was told these.
+
+        A ray from the halt that touches what the way touches, on the same side, is the way's.
+        """
+        found: set[int] = set()
+        for halt in self.leg.halts:
+            if halt.place is not self.piece.start and halt.place is not self.piece.end:
+                continue
+            place, other = halt.place, self.piece.end if halt.place is self.piece.start else self.piece.start
+            for ray in halt.facts.rays:
+                if any(self._is_touched(place, other, *touched) for touched in ray.touched):
+                    found |= ray.lines
+        return frozenset(found)
+
+    def _is_touched(self, place: Point, other: Point, feature: int, side: int) -> bool:
+        """Whether the way, between its ends, touches a feature as a ray from one of them does."""
+        if feature not in self.touches:
+            return False
+        if not side:
+            return True
+        carrier = self.table.arc_on(feature).carrier
+        return carrier is not None and tangent_side(place, other, carrier) == side
 
 
 def view_from_end(

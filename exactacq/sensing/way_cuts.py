@@ -8,6 +8,7 @@ from __future__ import annotations
 from operator import itemgetter
 from typing import TypeAlias
 
+from exactacq.geometry.constructions import Carrier
 from exactacq.geometry.coordinates import dot
 from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
@@ -73,8 +74,11 @@ class WayCuts:
     def _is_along(self, names: Names) -> bool:
         """Whether a line is known to be the way's own, as it passes two corners that the way's line passes.
 
-        Circles do not tell: two lines touch a corner and a circle, and up to four touch two circles.
+        Circles do not tell: two lines touch a corner and a circle, and up to four touch two circles. From a
+        place where the robot halted it may be known which one the way is.
         """
+        if not self.way.own_lines.isdisjoint(key for key, _ in names):
+            return True
         numbers, touches = self.way.table.line_numbers, self.way.touches
         if len(touches) < 2:
             return False
@@ -84,7 +88,7 @@ class WayCuts:
     def _is_own(self, sector: Sector, t: Real, other: Real) -> bool:
         """Whether the lines through the way's ends, which look the same, are one: the way's own line."""
         if isinstance(sector, Rolling):
-            return self.way.is_tangent(Point(*sector.center), dot(sector.base, sector.base))
+            return self.way.is_tangent(Carrier(*sector.center, dot(sector.base, sector.base)))
         return isinstance(sector, Spokes) and t.compare(other) == 0
 
     def _is_inside(self, line_family: LineFamily, t: Real, pin: Pin) -> bool:
@@ -96,6 +100,8 @@ class WayCuts:
         bounds = (line_family.low, 1), (line_family.high, -1)
         for (bound, side), names in zip(bounds, line_family.names, strict=True):
             if t.overlaps(bound):
+                if self._is_along(names):
+                    return False
                 contact, direction = line_family.sector.touch(bound)
                 if self._is_crossed_in(pin, names) or direction.cross(pin[0] - contact).sign() == 0:
                     return False

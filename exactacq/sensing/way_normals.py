@@ -61,7 +61,7 @@ class WayNormals:
         found: dict[tuple[int, int], Real] = {}
         if self.way.piece.direction.rational is None:
             for point, u in self.way.ends:
-                found.update(((vertex, 0), u) for vertex in self.way.vertices_at(point))
+                found.update(((vertex, 0), u) for vertex in self.way.table.vertices_at(point))
                 for e in self.way.seen_from(self._view, point).own:
                     arc = self.way.table.curves[e]
                     if isinstance(arc, Arc) and self.way.passes_centre(circle := self.way.table.circles[e]):
