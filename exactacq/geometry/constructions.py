@@ -112,11 +112,13 @@ def put_on_tangent(point: Point, origin: Point, carrier: Carrier | None, touch: 
                 put_past_corner(point, origin, fact.origin)
 
 
-def tangent_side(origin: Point, point: Point, carrier: Carrier) -> int:
-    """1 or -1 as a line from a point through another one touches a circle on its left or right; 0 if unsure.
+def tangent_side(origin: Point, point: Point, carrier: Carrier | None) -> int:
+    """1 or -1 as the circle that a line through two points touches lies to its left or right; 0 if unsure.
 
-    Both points may lie on different sides of the circle: the line is taken towards it.
+    The line is taken from the first point towards the circle, wherever the second one lies on it.
     """
+    if carrier is None:
+        return 0
     center = Point(carrier.x, carrier.y)
     w, v = from_to(balls(origin), balls(center)), from_to(balls(origin), balls(point))
     return ball_sign(cross(v, w)) * ball_sign(dot(v, w))

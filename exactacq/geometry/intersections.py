@@ -95,14 +95,13 @@ class _LineHit:
     tangent: bool = False
 
 
-def line_contacts(origin: Point, direction: Point, curve: Curve, on: Touched = ()) -> list[Real]:
+def line_contacts(origin: Point, direction: Point, curve: Curve) -> list[Real]:
     """The ascending parameters lambda for which ``origin + lambda direction`` lies on the closed curve.
 
     A tangency counts once; a segment on the line gives both its ends. The direction is not 0. Whether an end
-    of the curve lies on the line is decided before any root is taken, and then gives the root rationally;
-    *on* is what the line is known to touch.
+    of the curve lies on the line is decided before any root is taken, and then gives the root rationally.
     """
-    hits = _line_hits(raw(origin), raw(direction), curve, on)
+    hits = _line_hits(raw(origin), raw(direction), curve, ())
     return sorted(Real(hit.parameter) for hit in hits)
 
 

@@ -52,11 +52,11 @@ class LineNumbers:
         own = self.first_arc(feature) if is_round else feature
         for number, side, sign in passed:
             if side == 0 and is_round:
-                found.append(self._mixed(number, own, sign < 0))
+                found.append(self.mixed(number, own, sign < 0))
             elif side == 0:
                 found.append(self.corners(own, number))
             elif not is_round:
-                found.append(self._mixed(own, self.circles[number], sign > 0))
+                found.append(self.mixed(own, self.circles[number], sign > 0))
             elif self.circles[number] != own:
                 other = self.circles[number]
                 turn = sign if side > 0 or own < other else -sign
@@ -82,7 +82,11 @@ class LineNumbers:
             return False
         return self.count + self.circles[edge] in self.features(key)
 
-    def _mixed(self, vertex: int, circle: int, is_left: bool) -> int:
+    def mixed(self, vertex: int, circle: int, is_left: bool) -> int:
+        """The number of the line through a corner, *is_left* of a circle, given as an arc, that it touches.
+
+        It is seen from the corner towards the circle.
+        """
         return self._number(vertex, circle, 1 + int(is_left))
 
     def _number(self, a: int, b: int, kind: int) -> int:

@@ -265,9 +265,9 @@ class Memory:
         facts, place = _facts_at(ahead, halt), halt.place
         if place.rational is None:
             facts.tell(self._table, place, self.radius * self.radius)
-        names = [name for name, (at, _) in ahead.leg.named.items() if at is place]
-        lines = ((name, ray) for name in names for ray in facts.rays if name[0] in ray.lines)
-        self._halt = HaltPlace(place, facts, tuple(lines))
+        way = len(self._table.curves)
+        lines = tuple(((key, way, 0), ray) for ray in facts.rays for key in sorted(ray.lines))
+        self._halt = HaltPlace(place, facts, lines)
         return replace(part, halts=(*part.halts, self._halt))
 
     def _savepoint(self, ahead: Ahead) -> Callable[[], None]:

@@ -12,7 +12,7 @@ from flint import arb, fmpq
 
 from exactacq.geometry.constructions import Carrier, is_put_on
 from exactacq.geometry.curves import Arc, Curve, Segment
-from exactacq.geometry.intersections import contacts, line_contacts
+from exactacq.geometry.intersections import contacts, line_points
 from exactacq.geometry.late import Pin, balls, late_point
 from exactacq.geometry.points import Point
 from exactacq.kernel.lines import line_at
@@ -228,7 +228,10 @@ class RangeEnds:
         far = free_views.sides[k]
         if isinstance(sector, Sliding):
             stops = [end.points[k] for end in (low, high) if end.tight]
-            yield from ((t, None, True) for t in self._beside(sector, curves[far.role], stops))
+            for t, point in self._beside(sector, curves[far.role], stops):
+                is_told = isinstance(curves[far.role], Segment)
+                pin = point, self.views.rails[far.edge].parameter(point)
+                yield t, (k, pin) if is_told else None, True
             return
         # An arc that is met twice is seen where the line enters the obstacle. At the other place no view
         # ends: those beside it are all longer than the range, or all shorter.
@@ -279,11 +282,16 @@ class RangeEnds:
         (cx, cy, dx, dy), (x, y) = line(sector, t.ball(64)), balls(point)
         return ball_sign((x - cx) * dx + (y - cy) * dy) == role
 
-    def _beside(self, sector: Sliding, far: Curve, known: list[Point]) -> list[Real]:
-        """Where the parallel of a segment at the range meets an edge; some ends are *known* to lie on it."""
+    def _beside(self, sector: Sliding, far: Curve, known: list[Point]) -> Iterator[tuple[Real, Point]]:
+        """Where the parallel of a segment at the range meets an edge; some ends are *known* to lie on it.
+
+        Each point is made of one number along the parallel: its own numbers show that it is on it.
+        """
         start, normal = sector.touch(Real(0))
         offset = normal * (self.range.radius / normal.norm_sq().sqrt())
-        return line_contacts(start + offset, Point(*sector.base), far, known)
+        base = Point(*sector.base)
+        for point in line_points(start + offset, base, far, known):
+            yield (point - start).dot(base) / base.norm_sq(), point
 
     def _square_from_center(self, sector: Sector) -> Real:
         """Squared distance from a sector's centre to the far end of a view that is as long as the range."""

@@ -32,7 +32,7 @@ from exactacq.sensing.line_points import Role
 from exactacq.sensing.view_families import FreeViews, LineView
 from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.visibility.line_names import Names
-from exactacq.visibility.place_facts import PlaceFacts
+from exactacq.visibility.place_facts import Alignment, PlaceFacts, numbers_of_way
 
 View: TypeAlias = "Callable[..., Seen]"
 """Gives what is seen from a point, given the edges through it, if these are known, and what else is known."""
@@ -157,28 +157,26 @@ class StraightWay:
 
     @cached_property
     def own_lines(self) -> frozenset[int]:
-        """Numbers of its own line (see `line_keys`), if a robot that halted at an end was told these.
+        """Numbers of its own line (see `line_keys`), as far as a circle that it touches tells them.
 
-        A ray from the halt that touches what the way touches, on the same side, is the way's.
+        So does a ray from a halt at an end, if it touches what the way touches on the same side.
         """
-        found: set[int] = set()
+        ends = self.piece.start, self.piece.end
+        found = set(numbers_of_way(self.table, ends, self.touches))
         for halt in self.leg.halts:
-            if halt.place is not self.piece.start and halt.place is not self.piece.end:
-                continue
-            place, other = halt.place, self.piece.end if halt.place is self.piece.start else self.piece.start
-            for ray in halt.facts.rays:
-                if any(self._is_touched(place, other, *touched) for touched in ray.touched):
-                    found |= ray.lines
+            for other in ends if any(halt.place is end for end in ends) else ():
+                for ray in halt.facts.rays:
+                    if other is not halt.place and self._is_along(ray, halt.place, other):
+                        found |= ray.lines
         return frozenset(found)
 
-    def _is_touched(self, place: Point, other: Point, feature: int, side: int) -> bool:
-        """Whether the way, between its ends, touches a feature as a ray from one of them does."""
-        if feature not in self.touches:
-            return False
-        if not side:
-            return True
-        carrier = self.table.arc_on(feature).carrier
-        return carrier is not None and tangent_side(place, other, carrier) == side
+    def _is_along(self, ray: Alignment, place: Point, other: Point) -> bool:
+        """Whether a ray from one end of the way touches what the way does on its way to the other end."""
+        return any(
+            not side or tangent_side(place, other, self.table.arc_on(feature).carrier) == side
+            for feature, side in ray.touched
+            if feature in self.touches
+        )
 
 
 def view_from_end(

@@ -370,11 +370,11 @@ class FrontFaces:
                 return [(e, end, e)]
         elif not (first or last) and not self._spans(arc, front):
             return []
-        # From the left tangent point to the right one: clockwise as seen from the point.
-        enter, leave = self._tangent(e, 1), self._tangent(e, -1)
+        # From the left tangent point to the right one: clockwise as seen from the point. A tangent that ends
+        # no face is not made: it may touch the circle just where the arc ends.
         if first and last:
-            return [(e, leave, e), (e, end, enter)]
-        return [(e, end if last else leave, e if first else enter)]
+            return [(e, self._tangent(e, -1), e), (e, end, self._tangent(e, 1))]
+        return [(e, end if last else self._tangent(e, -1), e if first else self._tangent(e, 1))]
 
     def _reaches(self, arc: Arc) -> int:
         """1, 0 or -1 as an arc's circle comes nearer than the range, as near, or not."""

@@ -20,6 +20,7 @@ from exactacq.geometry.constructions import (
     put_on_normal,
     put_on_tangent,
     put_past_corner,
+    tangent_side,
     touch_on_tangent,
 )
 from exactacq.geometry.coordinates import Vector, cross, dot, minus, raw
@@ -187,13 +188,34 @@ def along_way(
         if (foot := touch_on_tangent(start, end, arc.carrier)) is not None:
             feet[feature] = foot
     here = [f for f, foot in feet.items() if foot is place]
+    lines = frozenset(numbers_of_way(table, ends, features))
     for ray in _alignments(
         table, balls(place), balls(along), lambda: (line.start, along), features, None, here
     ):
         there = end if ray.sense > 0 else start
         convex = (e for e in table.edges_at(there) if table.kinds[e] != CONCAVE)
         known = {**(met if ray.sense > 0 else {}), **dict.fromkeys(convex, there)}
-        yield replace(ray, met=known, feet=feet)
+        # A line that touches a circle meets it there only.
+        round_ = ((table.line_numbers.feature(e, True), e) for e in known if e in table.circles)
+        touched = {circle: known[e] for circle, e in round_ if circle in features}
+        yield replace(ray, met=known, feet=touched | feet, lines=lines)
+
+
+def numbers_of_way(table: EdgeTable, ends: tuple[Point, Point], features: Iterable[int]) -> Iterator[int]:
+    """Numbers of the line of two points that touches some features: by corners and circles among these.
+
+    (Two corners tell what both points show by their numbers.)
+    """
+    numbers, corners, circles = table.line_numbers, list[int](), list[int]()
+    for feature in features:
+        (circles if numbers.is_circle(feature) else corners).append(feature)
+    for circle in circles:
+        carrier = table.arc_on(circle).carrier
+        for vertex in corners:
+            corner = table.starts[vertex]
+            side = next(filter(None, (tangent_side(corner, end, carrier) for end in ends)), 0)
+            if side:
+                yield numbers.mixed(vertex, numbers.first_arc(circle), side < 0)
 
 
 def along_edge(table: EdgeTable, place: Point, e: int, near: Iterable[int]) -> Iterator[Alignment]:
