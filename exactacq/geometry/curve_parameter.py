@@ -53,7 +53,7 @@ class Rail:
         last, u = self._last
         if point is not last:
             u = self._fractions.of(point) if isinstance(self.curve, Segment) else self._turns.of(point)
-            if isinstance(self.curve, Arc) and u.is_late:
+            if isinstance(self.curve, Arc) and (u.is_late or point.rational is None):
                 put_on(point, self.curve.carrier)
             if not point.is_late:
                 # A late one may know the rail.

@@ -82,6 +82,16 @@ class LineNumbers:
             return False
         return self.count + self.circles[edge] in self.features(key)
 
+    def tangent(self, one: int, other: int, one_side: int, other_side: int) -> int:
+        """The number of the line that touches two circles, given as arcs, by their sides of it.
+
+        A side is 1 if the circle lies to the left of the way from where the line touches the first one to
+        where it touches the other, else -1.
+        """
+        is_right = (one_side if one < other else -other_side) < 0
+        kind = 3 + 2 * int(one_side != other_side) + int(is_right)
+        return self._number(min(one, other), max(one, other), kind)
+
     def mixed(self, vertex: int, circle: int, is_left: bool) -> int:
         """The number of the line through a corner, *is_left* of a circle, given as an arc, that it touches.
 

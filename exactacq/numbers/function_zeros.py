@@ -225,7 +225,7 @@ def _zero_in(
     known: Sequence[Real],
 ) -> Iterator[Real]:
     """The zero of a monotone function in [left, right), if there is one strictly between low and high."""
-    before, after = _sign(function, Real(left)), _sign(function, Real(right))
+    before, after = (_sign_in_cell(function, t, (low, high), sign_at) for t in (left, right))
     if before == 0:
         zero = Real(left)
         if zero.compare(low) > 0 and zero.compare(high) < 0:
@@ -240,6 +240,14 @@ def _zero_in(
         if begins and ends:
             here = [zero for zero in known if zero.compare(left) > 0 and zero.compare(right) < 0]
             yield here[0] if here else Real.of_atom(Zero.make(function, left, right))
+
+
+def _sign_in_cell(
+    function: Function, t: fmpq, ends: tuple[Real, Real], sign_at: Callable[[Real], int] | None
+) -> int:
+    """The sign at an end of a cell, which may be one of the *ends* of which *sign_at* knows an easier way."""
+    end = next((end for end in ends if not end.is_late and end.rational == t), None)
+    return _sign(function, Real(t)) if end is None else _sign(function, end, sign_at)
 
 
 def _sign(function: Function, t: Real, exact: Callable[[Real], int] | None = None) -> int:

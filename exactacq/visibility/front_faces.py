@@ -99,10 +99,11 @@ class _Touch:
     times as long as the way. Where the tangent is a known *ray*, it gives direction and point.
     """
 
-    __slots__ = ("_vector", "arc", "around", "circle", "origin", "place", "ray", "side")
+    __slots__ = ("_vector", "arc", "around", "circle", "origin", "place", "ray", "side", "table")
 
     def __init__(
         self,
+        table: EdgeTable,
         place: Point,
         origin: Vector,
         around: Balls,
@@ -112,7 +113,7 @@ class _Touch:
         ray: Alignment | None,
     ) -> None:
         self.place, self.origin, self.around, self.arc, self.side = place, origin, around, arc, side
-        self.circle, self.ray = circle, ray
+        self.table, self.circle, self.ray = table, circle, ray
         self._vector: Vector | None = None
 
     @property
@@ -139,6 +140,8 @@ class _Touch:
         touch = late_point((x + u / square, y + v / square), self._point)
         put_on(touch, self.arc.carrier)
         put_on_tangent(touch, self.place, self.arc.carrier)
+        if self.ray is not None:
+            self.ray.tell_line(self.table, touch, self.place)
         return touch, (u, v)
 
     def long(self) -> Balls:
@@ -317,6 +320,11 @@ class FrontFaces:
         found = (self._rays.get(self.touched(event)) for event in events)
         return next((ray for ray in found if ray is not None), None)
 
+    def is_one_ray(self, a: int, b: int) -> bool:
+        """Whether two events are known to lie on one ray."""
+        ray = self.ray((a,))
+        return ray is not None and ray is self.ray((b,))
+
     def touched(self, event: int) -> Touched:
         """What a ray to an event touches."""
         if event < len(self.table.vertices):
@@ -424,9 +432,8 @@ class FrontFaces:
         arc = self.table.curves[e]
         assert isinstance(arc, Arc)
         circle = self.table.line_numbers.feature(e, True)
-        touch = _Touch(
-            self.point, self.origin, self.around, arc, side, circle, self._rays.get((circle, -side))
-        )
+        ray = self._rays.get((circle, -side))
+        touch = _Touch(self.table, self.point, self.origin, self.around, arc, side, circle, ray)
         return SweepEnd(touch.found, touch.vector, touch.long, e, -side)
 
     # -- the point's own edges ---------------------------------------------------------------------

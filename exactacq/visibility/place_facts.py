@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TypeAlias
 
-from flint import fmpq
+from flint import arb, fmpq
 
 from exactacq.cached import cached_property
 from exactacq.geometry.constructions import (
@@ -20,7 +20,6 @@ from exactacq.geometry.constructions import (
     put_on_normal,
     put_on_tangent,
     put_past_corner,
-    tangent_side,
     touch_on_tangent,
 )
 from exactacq.geometry.coordinates import Vector, cross, dot, minus, raw
@@ -74,22 +73,18 @@ class Alignment:
 
     def tell(self, table: EdgeTable, place: Point) -> None:
         """Tell the place what the lines from there to what the ray comes to touch: all are the ray's."""
-        numbers, corners, circles = table.line_numbers, list[Point](), list[tuple[int, Arc]]()
-        for feature, side in self.touched:
-            curve = table.curves[numbers.first_arc(feature) if side else feature]
-            if side:
-                assert isinstance(curve, Arc), "only arcs have circles"
-                circles.append((feature, curve))
-            else:
-                corners.append(curve.start)
+        corners = (table.starts[feature] for feature, side in self.touched if not side)
         for goal in (*corners, *self.met.values()):
-            if goal is place:
-                continue
-            for feature, arc in circles:
-                put_on_tangent(place, goal, arc.carrier, self.feet.get(feature))
-            for corner in corners:
-                if corner is not goal:
-                    put_past_corner(place, goal, corner)
+            if goal is not place:
+                self.tell_line(table, place, goal)
+
+    def tell_line(self, table: EdgeTable, point: Point, origin: Point) -> None:
+        """Tell a point of the ray what its line from another one touches."""
+        for feature, side in self.touched:
+            if side:
+                put_on_tangent(point, origin, table.arc_on(feature).carrier, self.feet.get(feature))
+            elif table.starts[feature] is not origin:
+                put_past_corner(point, origin, table.starts[feature])
 
     def touch(self, circle: int, center: Point) -> Point:
         """Where the ray touches a circle, given as a feature, about a centre."""
@@ -202,20 +197,27 @@ def along_way(
 
 
 def numbers_of_way(table: EdgeTable, ends: tuple[Point, Point], features: Iterable[int]) -> Iterator[int]:
-    """Numbers of the line of two points that touches some features: by corners and circles among these.
+    """Numbers of the line of two points that touches some features: by each circle and another feature.
 
-    (Two corners tell what both points show by their numbers.)
+    Balls tell on which side a circle lies, and what comes first; where they leave that open it gives no
+    number. (Of a line of two corners numbers tell enough: it is rational.)
     """
-    numbers, corners, circles = table.line_numbers, list[int](), list[int]()
+    numbers, start = table.line_numbers, balls(ends[0])
+    along = from_to(start, balls(ends[1]))
+    circles, corners = list[tuple[int, int, arb]](), list[tuple[int, arb]]()
     for feature in features:
-        (circles if numbers.is_circle(feature) else corners).append(feature)
-    for circle in circles:
-        carrier = table.arc_on(circle).carrier
-        for vertex in corners:
-            corner = table.starts[vertex]
-            side = next(filter(None, (tangent_side(corner, end, carrier) for end in ends)), 0)
-            if side:
-                yield numbers.mixed(vertex, numbers.first_arc(circle), side < 0)
+        if numbers.is_circle(feature):
+            way = from_to(start, balls(table.arc_on(feature).center))
+            circles.append((numbers.first_arc(feature), ball_sign(cross(along, way)), dot(along, way)))
+        else:
+            corners.append((feature, dot(along, from_to(start, balls(table.starts[feature])))))
+    for n, (circle, side, at) in enumerate(circles):
+        for vertex, place in corners:
+            if (ahead := ball_sign(at - place)) and side:
+                yield numbers.mixed(vertex, circle, side * ahead < 0)
+        for other, beyond, place in circles[:n]:
+            if (ahead := ball_sign(place - at)) and side and beyond:
+                yield numbers.tangent(circle, other, side * ahead, beyond * ahead)
 
 
 def along_edge(table: EdgeTable, place: Point, e: int, near: Iterable[int]) -> Iterator[Alignment]:

@@ -14,7 +14,7 @@ from operator import itemgetter
 
 from flint import arb, fmpq
 
-from exactacq.geometry.constructions import put_on_tangent
+from exactacq.geometry.constructions import put_on_tangent, put_past_corner
 from exactacq.geometry.coordinates import Vector, advance, cross, minus, raw, sign
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.late import Balls, balls, late_point
@@ -125,6 +125,8 @@ class RadialSweep:
         balls = {} if self.table.is_coarse else {event: faces.long_offset(event) for event in events}
 
         def compare(a: int, b: int) -> int:
+            if faces.is_one_ray(a, b):
+                return 0
             turn = clear_turn(balls[a], balls[b]) if balls else 0
             return -(turn or _turn(faces.offset(a), faces.offset(b)))
 
@@ -259,7 +261,7 @@ class RadialSweep:
         return self._touching(late_point(around, _made_hit, curve, faces.point, own, make), rank)
 
     def _touching(self, hit: Point, rank: int) -> Point:
-        """A point that was made in the direction of a rank, told which circles the line to it touches."""
+        """A point that was made in the direction of a rank, told which features the line to it touches."""
         faces, count = self.faces, len(self.table.vertices)
         for event in self.events(rank):
             if event >= count:
@@ -267,6 +269,8 @@ class RadialSweep:
                 arc = self.table.curves[mark.edge]
                 assert isinstance(arc, Arc), "what is no vertex is the tangent of an arc"
                 put_on_tangent(hit, faces.point, arc.carrier, mark.point)
+            else:
+                put_past_corner(hit, faces.point, self.table.starts[event])
         return hit
 
     def covering(self, rank: int) -> list[int]:

@@ -54,11 +54,14 @@ class ViewEnds:
         return point
 
     def rank(self, end: int) -> int | None:
-        """The rank of an end's direction, or `AT_RANGE`; None for vertices and points that were given."""
+        """The rank of an end's direction, or `AT_RANGE`; None for vertices and points without one."""
         return self._ranks.get(end)
 
-    def number(self, e: int, point: Point, at_range: bool = False) -> int:
-        """The number of a point of an edge that was made elsewhere, perhaps for the distance of the range."""
+    def number(self, e: int, point: Point, at_range: bool = False, rank: int | None = None) -> int:
+        """The number of a point of an edge that was made elsewhere.
+
+        It may have been made for the distance of the range, or on the ray of a rank.
+        """
         table = self.sweep.table
         curve = table.curves[e]
         if point is curve.start:
@@ -67,6 +70,8 @@ class ViewEnds:
             return table.following[e]
         end = self.parts.add(GIVEN, HERE, HERE)
         self._points[end] = point
+        if rank is not None:
+            self._ranks[end] = rank
         if at_range:
             self._ranks[end] = AT_RANGE
             put_around(point, self.sweep.faces.point, self.disc.square)

@@ -395,7 +395,7 @@ class BoundaryView:
         if struck is not None and struck not in (sweep.first[ray.rank - 1], sweep.first[ray.rank]):
             # Only this ray reaches it.
             order = (sweep.high(struck) - ray.rank) % max(sweep.count, 1)
-            end = self.ends.number(sweep.edge(struck), self._end(ray))
+            end = self.ends.number(sweep.edge(struck), self._end(ray), rank=ray.rank)
             found.setdefault(sweep.edge(struck), []).append((struck, order, (end, end)))
 
     def _add_own(self, found: dict[int, list[Placed]]) -> None:
