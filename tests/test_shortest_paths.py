@@ -36,6 +36,7 @@ import exactacq as xa
 from exactacq import kernel
 from exactacq.geometry.points import Location
 from exactacq.visibility import tangents
+from exactacq.visibility.free_segment import is_free_among
 from exactacq.visibility.pegs import Peg, Pegs
 
 Q = Fraction
@@ -129,6 +130,19 @@ def test_a_line_that_grazes_everything_is_one_piece() -> None:
     shapes = [box(0, 1, -1, 0), [(2, 0), (3, 1), (1, 1)], xa.Circle((5, -1), 1), box(7, 8, 0, 2)]
     path = found(xa.Scene(shapes), (-1, 0), (9, 0))
     assert path.length == 10 and kinds(path) == "-" and path.count == 1
+
+
+def test_a_long_row_costs_little_for_each_pair(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whether a line along a row is free of all of it was decided before a corner on its way was noticed."""
+    lengths: list[int] = []
+
+    def counted(table: object, start: xa.Point, end: xa.Point, edges: list[int]) -> bool:
+        lengths.append(len(edges))
+        return is_free_among(table, start, end, edges)
+
+    monkeypatch.setattr(tangents, "is_free_among", counted)
+    path = found(build(square_grid(12, 1)), (-1, 1), (24, 1))
+    assert path.length == 25 and kinds(path) == "-" and max(lengths) < 12
 
 
 def test_equally_short_paths_are_counted() -> None:

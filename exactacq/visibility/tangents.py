@@ -216,13 +216,13 @@ class Tangents:
             edges = [e for e in edges if e < self.table.solids]
             if self._meets_chain(self.table, i, j, line, chained):
                 return None
-        if not is_free_among(self.table, start, end, edges):
+        if self._is_divided(i, j, line, edges) or not is_free_among(self.table, start, end, edges):
             return None
         for entry, contact, way in ((i, start, along), (j, end, -along)):
             peg, _ = pegs.entries[entry]
             if not (is_sure and not peg.is_place) and not pegs.may_leave(entry, contact, way):
                 return None
-        return None if self._is_divided(i, j, line, edges) else line.tangent
+        return line.tangent
 
     def _is_on_circle(self, i: int, j: int) -> bool:
         """Whether entry i is seen to be a point of the circle of entry j, to which it has no tangent."""
