@@ -11,6 +11,7 @@ import networkx as nx
 import pytest
 from brute_paths import shortest_length
 from drawn_scenes import terrains as drawn_terrains
+from flint import arb
 from hypothesis import given
 from hypothesis import strategies as st
 from strategies import (
@@ -38,6 +39,8 @@ from exactacq.geometry.points import Location
 from exactacq.visibility import tangents
 from exactacq.visibility.free_segment import is_free_among
 from exactacq.visibility.pegs import Peg, Pegs
+from exactacq.visibility.shortest_path import _Equals
+from exactacq.visibility.taut_search import Label, TautWay
 
 Q = Fraction
 HALF = Q(1, 2)
@@ -143,6 +146,16 @@ def test_a_long_row_costs_little_for_each_pair(monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setattr(tangents, "is_free_among", counted)
     path = found(build(square_grid(12, 1)), (-1, 1), (24, 1))
     assert path.length == 25 and kinds(path) == "-" and max(lengths) < 12
+
+
+def test_thousands_of_ways_on_one_line() -> None:
+    """They were joined by recursion, which ended a path past 250 squares in a row with an error."""
+    labels = [Label(0, xa.Point(0, 0), -1, [], arb(0))]
+    for k in range(3000):
+        piece = xa.Segment((k, 0), (k + 1, 0))
+        ways = [TautWay(labels[-1], ((piece, piece.length),))]
+        labels.append(Label(k + 1, piece.end, k, ways, arb(k + 1)))
+    assert list(_Equals(labels[-1]).chosen()) == [xa.Segment((0, 0), (3000, 0))]
 
 
 def test_equally_short_paths_are_counted() -> None:

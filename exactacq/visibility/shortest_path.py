@@ -184,21 +184,37 @@ class _Equals:
         last: Curve | None = None
         while spots[0][0] is not self.goal or spots[0][1] is not None:
             reached: set[Hashable] = set()
-            ends = [found for spot in spots for found in self._onward(spot, None, last, reached)]
+            ends = [found for spot in spots for found in self._ends(spot, last, reached)]
             ends.sort(key=cmp_to_key(_order))
             last, _ = ends[0]
             spots = [spot for piece, spot in ends if piece is last or _order((piece, spot), ends[0]) == 0]
             yield last
 
-    def _onward(
-        self, spot: _Spot, piece: Curve | None, last: Curve | None, reached: set[Hashable]
-    ) -> Iterator[tuple[Curve, _Spot]]:
-        """The longest pieces that begin at a spot or go on with a *piece*, and where they end.
+    def _ends(self, spot: _Spot, last: Curve | None, reached: set[Hashable]) -> Iterator[tuple[Curve, _Spot]]:
+        """The longest pieces that begin at a spot, and where they end.
 
         Pieces that go on with the *last* one are left out: they belong to other paths, in which that is
         longer. Along a row of walls there are ever more ways to the same spot: what it leads to is told once,
-        and it is *reached*.
+        and it is *reached*. Thousands of ways may lie on one line, so there is no recursion.
         """
+        depth = [self._steps(spot, None, last, reached)]
+        while depth:
+            step = next(depth[-1], None)
+            if step is None:
+                depth.pop()
+                continue
+            piece, spot, goes_on = step
+            if goes_on:
+                depth.append(self._steps(spot, piece, last, reached))
+            else:
+                assert piece is not None, "only pieces end"
+                yield piece, spot
+
+    def _steps(
+        self, spot: _Spot, piece: Curve | None, last: Curve | None, reached: set[Hashable]
+    ) -> Iterator[tuple[Curve | None, _Spot, bool]]:
+        """What a *piece* that has come to a spot becomes, if one has begun: with its spot, and whether it may
+        go on from there."""
         label, link, done = spot
         # All begin in one place: those on one line or circle that end in one place are one piece.
         kind = None if piece is None else (_kind(piece), piece.center.key if isinstance(piece, Arc) else ())
@@ -207,23 +223,22 @@ class _Equals:
             return
         reached.add(key)
         if label is self.goal and link is None:
-            assert piece is not None
-            yield piece, spot
+            yield piece, spot, False
             return
         has_ended = False
         for way, target in self.links[id(label)] if link is None else (link,):
             if done == len(way.pieces):
-                yield from self._onward((target, None, 0), piece, last, reached)
+                yield piece, (target, None, 0), True
                 continue
             following, _ = way.pieces[done]
             longer = following if piece is None else _joined(piece, following)
             if piece is None and last is not None and _joined(last, following) is not None:
                 continue
             if longer is not None:
-                yield from self._onward((label, (way, target), done + 1), longer, None, reached)
+                yield longer, (label, (way, target), done + 1), True
             elif piece is not None and not has_ended:
                 has_ended = True
-                yield piece, spot
+                yield piece, spot, False
 
 
 def _key(labels: tuple[Label, ...]) -> frozenset[int]:
