@@ -62,6 +62,14 @@ def test_all_numbers_of_a_late_point_share_one_maker(made: list[Point]) -> None:
     assert point == Point(Q(3, 2), 2) and len(made) == 1
 
 
+@pytest.mark.parametrize(("x", "y"), [(0, 1), (1, 0), (-1, 3)])
+def test_parameters_on_a_segment_shorter_than_any_float(x: int, y: int) -> None:
+    """Upright ones were measured by their width, which is 0: a division by it was the end of a sweep."""
+    tiny = Q(1, 10**400)
+    rail = Rail(Segment((0, 0), (x * tiny, y * tiny)))
+    assert rail.parameter(Point(x * tiny / 3, y * tiny / 3)) == Q(1, 3)
+
+
 @pytest.mark.parametrize("ccw", [True, False])
 def test_parameters_on_an_arc(ccw: bool) -> None:
     """In every quarter turn, and next to its ends, where balls do not tell."""

@@ -105,7 +105,9 @@ class _Along:
     def __init__(self, segment: Segment) -> None:
         start, end = raw(segment.start), raw(segment.end)
         x, y = minus(end, start)
-        self.steep = abs(float(x)) < abs(float(y))
+        across, up = abs(float(x)), abs(float(y))
+        # Both floats are 0 where the segment is shorter than any float.
+        self.steep = across < up or (across == up == 0 and sign(x) == 0)
         self.start, self.growth = (start[1], y) if self.steep else (start[0], x)
 
     def of(self, point: Point) -> Real:
