@@ -243,6 +243,14 @@ def test_pieces_of_one_circle():
     assert contacts(circle(0, 0, 1), circle(0, 0, 2)) == []
 
 
+def test_a_segment_without_length_passes_its_point_alone():
+    """It passed all points of the plane: each was on its line, and neither before nor behind it."""
+    dot = Segment(Point(1, 2), Point(1, 2))
+    assert dot.passes(Point(1, 2)) and not dot.passes(Point(5, 5))
+    part = Segment(Point(0, 0), Point(4, 4)).part(Point(1, 1), Point(1, 1))
+    assert part.passes(Point(1, 1)) and not part.passes(Point(2, 2))
+
+
 def test_shared_ends_are_copied():
     a, b = segment(0, 0, 1, 1), bulged(1, 1, 2, 0, "1/2")
     (contact,) = contacts(a, b)

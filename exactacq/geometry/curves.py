@@ -110,7 +110,10 @@ class Segment:
         True
         """
         whole = self.whole
-        return whole.direction.cross(point - whole.start).sign() == 0 and self.contains(point)
+        if whole.direction.cross(point - whole.start).sign() or not self.contains(point):
+            return False
+        # Without length it has no line, on which all points seemed to lie.
+        return self.start != self.end or point == self.start
 
     def may_pass(self, point: Point, bits: int) -> bool:
         """False only if balls of that precision prove that the closed segment does not contain the point."""
