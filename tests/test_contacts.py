@@ -251,6 +251,14 @@ def test_a_segment_without_length_passes_its_point_alone():
     assert part.passes(Point(1, 1)) and not part.passes(Point(2, 2))
 
 
+def test_a_bulge_is_any_rational_but_0():
+    """By an int floats were divided: the arc of bulge 3 ran about (0, 1.33...), not about (0, 4/3)."""
+    east, west = Point(1, 0), Point(-1, 0)
+    assert Arc.from_bulge(east, west, 3).center == Point(0, Fraction(4, 3))
+    with pytest.raises(ValueError, match="a bulge that is not 0"):
+        Arc.from_bulge(east, west, 0)
+
+
 def test_shared_ends_are_copied():
     a, b = segment(0, 0, 1, 1), bulged(1, 1, 2, 0, "1/2")
     (contact,) = contacts(a, b)

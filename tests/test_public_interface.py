@@ -98,6 +98,7 @@ class TestEquality:
         assert arc == again and hash(arc) == hash(again)
         assert arc != arc.reversed() and arc != one and one != arc
         assert arc != xa.Arc.from_bulge(xa.Point(0, 0), xa.Point(1, 0), fmpq(2))
+        assert arc == xa.Arc.from_bulge(xa.Point(0, 0), xa.Point(1, 0), "1/2")
         root = xa.Real(2).sqrt()
         slanted = xa.Segment((0, 0), (root, 1 / root))
         assert slanted == xa.Segment((0, 0), (2 / root, root / 2))

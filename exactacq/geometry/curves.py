@@ -198,18 +198,21 @@ class Arc:
         return hash((self.start, self.end, self.center))
 
     @classmethod
-    def from_bulge(cls, start: Point, end: Point, bulge: fmpq) -> Arc:
+    def from_bulge(cls, start: Point, end: Point, bulge: object) -> Arc:
         """The arc whose included angle is ``4 atan(bulge)``, clockwise for a negative bulge.
 
-        Start and end are rational and distinct, the bulge is rational and not 0; 1 makes a half circle.
+        Start and end are rational and distinct; 1 makes a half circle. Raises ValueError for a bulge of 0,
+        and `FormatError` for one that is no rational number.
 
         >>> Arc.from_bulge(Point(1, 0), Point(-1, 0), fmpq(1))
         Arc(Point(1, 0), Point(-1, 0), center=Point(0, 0), ccw)
         """
-        chord = end - start
-        center = start + chord * fmpq(1, 2) + chord.left() * ((1 - bulge * bulge) / (4 * bulge))
+        chord, b = end - start, rational(bulge)
+        if b == 0:
+            raise ValueError("an arc has a bulge that is not 0")
+        center = start + chord * fmpq(1, 2) + chord.left() * ((1 - b * b) / (4 * b))
         radius_sq = rational((start - center).norm_sq())
-        return cls(start, end, center, radius_sq, bulge > 0)
+        return cls(start, end, center, radius_sq, b > 0)
 
     @classmethod
     def circle(cls, center: Point, radius_sq: Real | fmpq) -> Arc:
