@@ -359,6 +359,8 @@ def test_the_index_finds_what_brute_force_finds(seed):
             boxes = np.round(boxes)
         if rng.random() < 0.3:
             boxes[0] = [-inf, 0, inf, 1e308]
+        if rng.random() < 0.3:
+            boxes[-2:] = [-inf, 0, -1e305, 1]
         index = BoxIndex(boxes)
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(box_index, "SCANNED", 0)

@@ -236,7 +236,7 @@ class _Level:
         In chunks: a window's rows first, then each row's run of cells.
         """
         with np.errstate(over="ignore"):
-            cells = np.floor(windows / self.size)
+            cells = np.floor(np.clip(windows, -LIMIT, LIMIT) / self.size)
         width = len(self.columns)
         left = np.searchsorted(self.columns, cells[:, 0] - 1)
         right = np.searchsorted(self.columns, cells[:, 2], side="right")
