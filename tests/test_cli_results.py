@@ -106,6 +106,7 @@ def test_a_view_is_written(capsys: pytest.CaptureFixture[str], tmp_path: Path) -
 def test_isovist_refuses(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert "--at: (5, 0) lies inside obstacle O1" in refused(capsys, "isovist", "circles", "--at", "5,0")
     assert "--at: not two numbers" in refused(capsys, "isovist", "circles", "--at", "5")
+    assert "--at: it must not lie farther than" in refused(capsys, "isovist", "circles", "--at", "1e400,0")
     assert "must end in .wkt" in refused(
         capsys, "isovist", "circles", "--at", "0,0", "--out", tmp_path / "x.json"
     )

@@ -91,6 +91,11 @@ def test_points_that_see_nothing(point: tuple[object, object]) -> None:
         isovist(Scene([SQUARE]), (0, 0))
 
 
+def test_a_point_that_is_too_far_out_is_no_start() -> None:
+    with pytest.raises(InvalidScene, match="point: it must not lie farther than"):
+        isovist(Scene([SQUARE]), (0, 10**101), 1)
+
+
 def test_what_lies_beyond_the_own_obstacle_is_not_in_range() -> None:
     """A far edge met through the point's own obstacle, beyond the range, once passed for free space there."""
     scene = Scene([Polygon([(0, 0), (2, 0), (2, 2), (0, 2)]), Polygon([(0, -2), (2, -2), (2, -1), (0, -1)])])

@@ -286,6 +286,9 @@ def test_refusals() -> None:
         xa.shortest_path(room, (1, 1), (10, 1))
     with pytest.raises(xa.InvalidScene, match="point 1: "):
         xa.tangent_graph(room, [(1, 1), (10, 1)])
+    # Its nearest float was asked for, and there is none: an OverflowError.
+    with pytest.raises(xa.InvalidScene, match=r"end: it must not lie farther than 10\^100"):
+        xa.shortest_path(xa.Scene([]), (1, 1), (10**400, 1))
 
 
 # -- laws ------------------------------------------------------------------------------------------

@@ -99,12 +99,14 @@ def check_start(scene: Scene, sweeps: bool) -> None:
 
 
 def check_free(scene: Scene, option: str, place: tuple[fmpq, fmpq]) -> None:
-    """`InvalidScene` with the option's name for a place inside an obstacle."""
+    """`InvalidScene` with the option's name for a place that is too far out, or inside an obstacle."""
     from exactacq.geometry.points import Location, Point
-    from exactacq.scene.validation import place_text
+    from exactacq.scene.validation import place_flaws, place_text
     from exactacq.visibility.scene_tables import SceneTables
 
     point = Point(*place)
+    if far := list(place_flaws(option, point)):
+        raise InvalidScene(far)
     for where, obstacle in SceneTables.of(scene).around(point):
         if where is Location.INSIDE:
             kind = "beyond the enclosure" if obstacle.is_enclosure else "inside obstacle"

@@ -185,9 +185,15 @@ def sensor_flaws(start: Point | None, radius: fmpq | None) -> Iterator[str]:
         yield f"radius {_number(radius)}: a sensing radius must be positive"
     if radius is not None and radius > LIMIT:
         yield f"radius: a sensing radius of more than {LIMIT_TEXT} is not supported"
-    x, y = (0, 0) if start is None else start.rational or (start.x, start.y)
+    if start is not None:
+        yield from place_flaws("start", start)
+
+
+def place_flaws(name: str, place: Point) -> Iterator[str]:
+    """What is wrong with a place, whatever the obstacles."""
+    x, y = place.rational or (place.x, place.y)
     if abs(x) > LIMIT or abs(y) > LIMIT:
-        yield f"start: it must not lie farther than {LIMIT_TEXT} from the axes"
+        yield f"{name}: it must not lie farther than {LIMIT_TEXT} from the axes"
 
 
 def _of(loop: ValidatedLoop, flaw: str, *places: Point) -> Violation:

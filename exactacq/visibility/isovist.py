@@ -23,7 +23,7 @@ from exactacq.numbers.rationals import plain
 from exactacq.numbers.real import fmpq
 from exactacq.scene.ports import SVG, made
 from exactacq.scene.scene import Scene, as_scene, radius_of
-from exactacq.scene.validation import place_text
+from exactacq.scene.validation import place_flaws, place_text
 from exactacq.visibility.free_segment import is_free
 from exactacq.visibility.outline import ViewKind, ViewPiece, outline
 from exactacq.visibility.place_facts import NOTHING_KNOWN, PlaceFacts
@@ -165,7 +165,9 @@ def isovist(scene: Scene, point: object, radius: object = None) -> Isovist:
     as_scene(scene)
     with about("point"):
         place = Point.of(point)  # type: ignore[arg-type]
-    reach = radius_of(scene, radius, place)
+    if far := list(place_flaws("point", place)):
+        raise InvalidScene(far)
+    reach = radius_of(scene, radius, None)
     around = SceneTables.of(scene).around(place)
     if flaws := point_flaws("point", place, around):
         raise InvalidScene(flaws)

@@ -12,7 +12,7 @@ from exactacq.geometry.points import Location, Point
 from exactacq.kernel.box_tree import BoxNode, box_tree
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.scene import Obstacle, Scene, as_scene
-from exactacq.scene.validation import place_text
+from exactacq.scene.validation import place_flaws, place_text
 from exactacq.visibility.pegs import Pegs, is_within
 from exactacq.visibility.tangents import Tangents
 
@@ -72,6 +72,8 @@ def place_in(scene: Scene, name: str, point: object) -> Point:
     """A point of free space; `FormatError` or `InvalidScene` otherwise, with the point's name."""
     with about(name):
         place = Point.of(point)  # type: ignore[arg-type]
+    if far := list(place_flaws(name, place)):
+        raise InvalidScene(far)
     flaws = [f"{name}: {flaw}" for flaw in point_flaws("point", place, SceneTables.of(scene).around(place))]
     if not is_within(place, scene.terrain):
         flaws.append(f"{name}: the point {place_text(place)} lies outside the terrain")
