@@ -306,6 +306,12 @@ class TestBlockedPairs:
         assert sorted([math.hypot(*p), math.hypot(*q)]) == pytest.approx([1, 3])
         assert abs(p[0] * q[1] - p[1] * q[0]) < 1e-12
 
+    def test_the_least_of_concentric_segments(self) -> None:
+        """It was sought among those at the ends of the arcs alone, here in the east."""
+        scene = xa.Scene([xa.Circle((0, 0), 1)], enclosure=xa.Circle((0, 0), 3))
+        data = xa.visibility_graph(scene, 9).edges[0, 1]
+        assert (data["leave"], data["hit"]) == (xa.Point(-1, 0), xa.Point(-3, 0))
+
     def test_mirrored_chords_from_a_line_through_the_middle(self) -> None:
         """A rounded hole inside two half rings, all symmetric about the x-axis.
 

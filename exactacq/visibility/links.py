@@ -87,7 +87,7 @@ class Link:
     def segments(self, position: Point | None = None) -> list[tuple[Point, Point]]:
         """Leave and hit points of the shortest segments among which every tie rule's choice is.
 
-        A continuum gives its ends, its segment from *position*, and that to its westernmost hit point.
+        A continuum gives its ends, its westernmost segment, and that from *position*.
         """
         return [pair for item in self.shortest for pair in _extremes(item, position)]
 
@@ -538,9 +538,9 @@ def lexicographic(a: tuple[Point, Point], b: tuple[Point, Point]) -> int:
 
 
 def _extremes(item: Shortest, position: Point | None) -> Iterator[tuple[Point, Point]]:
-    """The segments of a shortest item among which the tie rule's choice is.
+    """The segments of a shortest item among which the tie rules' choices are.
 
-    Of a continuum: its ends, the one that leaves from where the robot is, and the westernmost hit point.
+    Of a continuum: its ends, the one that is westernmost, and the one that leaves from where the robot is.
     """
     if isinstance(item, Chord):
         yield item.start, item.end
@@ -551,13 +551,20 @@ def _extremes(item: Shortest, position: Point | None) -> Iterator[tuple[Point, P
         for p, q in zip(_ends(first), _ends(second), strict=True)
     ]
     yield from ends
-    if isinstance(first, Point):
-        if isinstance(second, Arc):
-            west = Point(second.center.x - second.radius, second.center.y)
-            if second.contains(west):
-                yield first, west
-    elif position is not None and first.passes(position):
-        yield position, second if isinstance(second, Point) else _partner(item, position)
+    arc = next((side for side in (first, second) if isinstance(side, Arc)), None)
+    if arc is not None and arc.contains(_westernmost(arc)):
+        # Both ends are westernmost: they lie on one ray from the centre, or one of them is the centre.
+        yield _westernmost(first), _westernmost(second)
+    if position is not None and not isinstance(first, Point) and first.passes(position):
+        yield position, _partner(item, position)
+
+
+def _westernmost(side: Curve | Point) -> Point:
+    """The westernmost point of an arc's circle; a point itself."""
+    if isinstance(side, Point):
+        return side
+    assert isinstance(side, Arc), "segments are nearest along their length to segments alone"
+    return Point(side.center.x - side.radius, side.center.y)
 
 
 def _ends(side: Curve | Point) -> tuple[Point, Point]:
@@ -567,8 +574,9 @@ def _ends(side: Curve | Point) -> tuple[Point, Point]:
 def _partner(family: NearestFamily, position: Point) -> Point:
     """The point of the second curve that corresponds to a point of the first."""
     first, second = family.first, family.second
+    if isinstance(second, Point):
+        return second
     if isinstance(first, Arc) and isinstance(second, Arc):
         return first.center + (position - first.center) * (second.radius / first.radius)
     assert not isinstance(first, Point)
-    assert not isinstance(second, Point)
     return position + (second.start - first.start)
