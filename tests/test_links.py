@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import tracemalloc
 from fractions import Fraction
 from itertools import combinations
 from random import Random
@@ -311,6 +312,17 @@ class TestBlockedPairs:
         scene = xa.Scene([xa.Circle((0, 0), 1)], enclosure=xa.Circle((0, 0), 3))
         data = xa.visibility_graph(scene, 9).edges[0, 1]
         assert (data["leave"], data["hit"]) == (xa.Point(-1, 0), xa.Point(-3, 0))
+
+    def test_all_pairs_of_many_edges_are_in_no_array(self) -> None:
+        """Of two boundaries of 20,000 edges one such array had 3 GB, and there were several."""
+        combs = [[(x, 0), *((x + 1 + k % 2, k) for k in range(700)), (x, 700)] for x in (0, 20)]
+        links = Links(xa.Scene(combs), 30)
+        tracemalloc.start()
+        found = links.between(0, 1)
+        _, most = tracemalloc.get_traced_memory()
+        tracemalloc.stop()
+        assert found is not None and found.length == 18 and len(found.shortest) == 350
+        assert most < 2**24
 
     def test_mirrored_chords_from_a_line_through_the_middle(self) -> None:
         """A rounded hole inside two half rings, all symmetric about the x-axis.

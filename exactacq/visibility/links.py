@@ -11,11 +11,11 @@ the next one cannot be shorter.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from heapq import heapify, heappop, heappush
-from itertools import count
+from heapq import heappop, heappush
+from itertools import count, islice
 from typing import TypeAlias
 
 import numpy as np
@@ -68,7 +68,7 @@ class _Start(str):
 
 
 GAPS_AT_ONCE = 2**16
-"""Gaps of boxes that are computed in one array."""
+"""Gaps of boxes, or of edges, that are computed in one array."""
 
 START = _Start("S")
 Node: TypeAlias = "int | str"
@@ -177,21 +177,17 @@ class Links:
             self._pivoting(i, j, best)
         return best.link(i, j)
 
-    def _nearest(self, left: Iterable[int], right: Iterable[int], best: _Best) -> bool:
+    def _nearest(self, left: Sequence[int], right: Sequence[int], best: _Best) -> bool:
         """Offer the free local minima of the distance; whether the least distance itself is free."""
-        a, b = np.array(left, dtype=np.intp), np.array(right, dtype=np.intp)
-        bounds = pair_bounds(self.table, a, b)
-        order = count()
-        heap: list[tuple[float, int, tuple[int, int] | Nearest | NearestFamily]] = [
-            (float(bounds[r, c]), next(order), (int(a[r]), int(b[c])))
-            for r, c in zip(*np.nonzero((bounds <= self.reach) & _facing(self.table, a, b)), strict=True)
-        ]
-        heapify(heap)
+        pairs, order = self._close_pairs(left, right), count(len(left) * len(right))
+        heap: list[tuple[float, int, tuple[int, int] | Nearest | NearestFamily]] = [*islice(pairs, 1)]
         least: Real | None = None
         seen: set[Hashable] = set()
         while heap and heap[0][0] <= best.guess:
             _, _, item = heappop(heap)
             if isinstance(item, tuple):
+                for pair in islice(pairs, 1):
+                    heappush(heap, pair)
                 for found in self._minima(*item):
                     if isinstance(found, Nearest):
                         # A vertex is found once for each of its edges.
@@ -209,6 +205,22 @@ class Links:
             for piece in self.free_part(item, length):
                 best.offer(length, piece)
         return least is not None and best.found and best.length == least
+
+    def _close_pairs(
+        self, left: Sequence[int], right: Sequence[int]
+    ) -> Iterator[tuple[float, int, tuple[int, int]]]:
+        """The pairs of edges that a segment within the radius may join, by lower bounds, with numbers."""
+        a, b = np.array(left, dtype=np.intp), np.array(right, dtype=np.intp)
+        step = max(1, GAPS_AT_ONCE // len(b))
+        rows = []
+        for k in range(0, len(a), step):
+            some = a[k : k + step]
+            bounds = pair_bounds(self.table, some, b)
+            r, c = np.nonzero((bounds <= self.reach) & _facing(self.table, some, b))
+            rows.append((bounds[r, c], some[r], b[c]))
+        lows, ones, others = map(np.concatenate, zip(*rows, strict=True))
+        for n, k in enumerate(np.argsort(lows, kind="stable").tolist()):
+            yield float(lows[k]), n, (int(ones[k]), int(others[k]))
 
     def _minima(self, a: int, b: int) -> Iterator[Nearest | NearestFamily]:
         """Local minima of the distance near two edges: of the boundaries, not only of the edges."""
