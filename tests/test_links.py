@@ -40,10 +40,11 @@ from exactacq.files.octagons import random_octagons
 from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
+from exactacq.scene.gaps import near_hull
 from exactacq.visibility import congruent_chords
 from exactacq.visibility.features import features
 from exactacq.visibility.line_families import Turning
-from exactacq.visibility.links import Links, near_hull
+from exactacq.visibility.links import Links
 
 Q = Fraction
 LAW_EXAMPLES = examples(3, 60)

@@ -16,6 +16,7 @@ from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
+from exactacq.scene.gaps import pair_bounds
 from exactacq.scene.scene import Scene
 from exactacq.scene.terrain_components import Ground
 from exactacq.sensing.event import Ending, EventKind, Occasion
@@ -24,7 +25,7 @@ from exactacq.strategies.registry import OwnStrategy, registered
 from exactacq.strategies.run import Bound, OwnRun, SeedSpreaderRun, SightseerRun, bounded
 from exactacq.strategies.seed_spreader.blocked import Blocking
 from exactacq.strategies.seed_spreader.mline import MLine
-from exactacq.visibility.links import START, pair_bounds
+from exactacq.visibility.links import START
 
 HALF = fmpq(1, 2)
 AnyRun = TypeVar("AnyRun", bound=SightseerRun | SeedSpreaderRun | OwnRun)

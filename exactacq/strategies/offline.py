@@ -24,8 +24,9 @@ from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
+from exactacq.scene.gaps import pair_bounds
 from exactacq.scene.scene import Scene, radius_of, start_of
-from exactacq.visibility.links import START, Node, pair_bounds
+from exactacq.visibility.links import START, Node
 
 SLACK = 1e-12
 """Floats of lengths that differ by more than this part tell which is less."""
