@@ -23,6 +23,7 @@ from flint import arb
 
 from exactacq.cached import cached_property
 from exactacq.errors import deciding
+from exactacq.geometry.coordinates import raw
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.late import BITS
 from exactacq.geometry.nearest_points import Nearest, NearestFamily, NearestFamilyKind, nearest_points
@@ -35,11 +36,11 @@ from exactacq.scene.gaps import box_gaps, may_face, near_hull, pair_bounds
 from exactacq.scene.scene import Scene, as_scene, radius_of
 from exactacq.visibility.chords import Chord, chord_at, critical, length_ball
 from exactacq.visibility.congruent_chords import CongruentChords
-from exactacq.visibility.fans import fan
-from exactacq.visibility.features import Feature, leaving
+from exactacq.visibility.features import Feature, directions_at, leaving
 from exactacq.visibility.features import features as scene_features
 from exactacq.visibility.free_segment import is_free, walk_line
 from exactacq.visibility.free_translates import free_pieces
+from exactacq.visibility.line_families import EAST, corner_sectors
 from exactacq.visibility.pinched_chords import PinchedLine, first_met
 from exactacq.visibility.rotational_sweep import Cell, Pencil, pencil
 from exactacq.visibility.sensor_range import Range
@@ -383,7 +384,7 @@ class Links:
         for e in self.table.edges_at(point):
             owner = int(self.table.owner[e])
             best.setdefault(owner, _Best(self.limit)).offer(Real(0), Chord(point, point, Real(0)))
-        for sweep in fan(self.table, point, self.reach):
+        for sweep in self._fan(point):
             for cell in sweep.cells:
                 if cell.ahead is None:
                     continue
@@ -393,6 +394,16 @@ class Links:
                 self._offer_pinched_rays(sweep, t, best)
         links = ((j, found.link(START, j)) for j, found in sorted(best.items()))
         return {j: link for j, link in links if link is not None}
+
+    def _fan(self, point: Point) -> Iterator[Pencil]:
+        """All rays from a point, counterclockwise from the east: only what is ``ahead`` of it means anything.
+
+        On a boundary a ray into the obstacle meets nothing.
+        """
+        own = self.table.edges_at(point)
+        breaks = tuple(directions_at(self.table, point, own))
+        for sector in corner_sectors(raw(point), EAST, None):
+            yield pencil(self.table, sector, own, self.reach, breaks)
 
     def _offer_fan(self, sweep: Pencil, cell: Cell, best: _Best) -> None:
         assert cell.ahead is not None
