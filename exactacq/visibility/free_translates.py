@@ -11,6 +11,7 @@ import numpy as np
 from flint import fmpq
 
 from exactacq.geometry.box_index import box
+from exactacq.geometry.coordinates import raw, same_direction
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.nearest_points import NearestFamily, NearestFamilyKind
 from exactacq.geometry.points import Point
@@ -26,6 +27,8 @@ Place: TypeAlias = "Real | Point"
 def free_pieces(table: EdgeTable, family: NearestFamily) -> Iterator[NearestFamily | Chord]:
     """The maximal free sub-families and the free isolated segments of a family.
 
+    Between full circles a family may come in two parts, divided where the first one starts.
+
     What is free changes only beside vertices and arcs' extreme points: one segment between two neighbouring
     critical places tells for all. Cost: a clearance test for every critical place.
     """
@@ -34,10 +37,6 @@ def free_pieces(table: EdgeTable, family: NearestFamily) -> Iterator[NearestFami
         return
     places = _Fractions(family) if family.kind is NearestFamilyKind.PARALLEL else _Directions(family)
     cuts = places.ordered(_critical(table, family, places))
-    if len(cuts) == 1:
-        if _is_open(table, places.chord(cuts[0])):
-            yield family
-        return
     free = [_is_open(table, places.chord(places.between(a, b))) for a, b in pairwise(cuts)]
     run: int | None = None
     for k, cut in enumerate(cuts):
@@ -173,13 +172,9 @@ class _Directions:
         return [self.low, *ordered, self.high]
 
     def _is_inside(self, direction: Point) -> bool:
-        if self._same(direction, self.low) or self._same(direction, self.high):
+        if any(same_direction(raw(direction), raw(end)) for end in (self.low, self.high)):
             return False
         return self.arc.full or self._compare(direction, self.high) < 0
-
-    @staticmethod
-    def _same(a: Point, b: Point) -> bool:
-        return a.cross(b).sign() == 0 and a.dot(b).sign() > 0
 
     def _compare(self, a: Place, b: Place) -> int:
         """Order of the angles in (0, 2 pi) from the first end."""
@@ -188,10 +183,9 @@ class _Directions:
         return self._half(a) - self._half(b) or -a.cross(b).sign()
 
     def _half(self, direction: Point) -> int:
+        """0 in the first half turn, 1 just at its end, 2 in the second half turn."""
         side = self.low.cross(direction).sign()
-        if side == 0:
-            return 0 if self.low.dot(direction).sign() > 0 else 1
-        return 0 if side > 0 else 1 + (side < 0)
+        return 1 - side if side or self.low.dot(direction).sign() < 0 else 0
 
     def between(self, low: Place, high: Place) -> Place:
         """A direction inside the angle from low to high, of at most a turn."""
