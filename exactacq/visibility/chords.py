@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 from flint import arb, fmpq, fmpq_poly
 
-from exactacq.geometry.coordinates import cross, dot
+from exactacq.geometry.coordinates import Vector, cross, dot
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.late import BITS
 from exactacq.geometry.points import Point
@@ -23,7 +23,7 @@ from exactacq.numbers.function_zeros import roots
 from exactacq.numbers.rationals import rational
 from exactacq.numbers.real import Real
 from exactacq.visibility.line_balls import CurveBalls, line
-from exactacq.visibility.line_families import Sector, Vector
+from exactacq.visibility.line_families import Sector
 
 X = fmpq_poly([0, 1])
 UNIT = fmpq_poly([1])

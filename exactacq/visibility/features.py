@@ -14,13 +14,13 @@ from weakref import WeakKeyDictionary
 
 from flint import fmpq
 
-from exactacq.geometry.coordinates import cross, dot, raw, same_direction, sign
+from exactacq.geometry.coordinates import Vector, cross, dot, raw, same_direction, sign
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.points import Point
 from exactacq.kernel.images import STRAIGHT
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.visibility.line_families import Sector, Vector, corner_sectors, round_sectors
+from exactacq.visibility.line_families import Sector, corner_sectors, round_sectors
 
 
 @dataclass(frozen=True, slots=True)

@@ -34,7 +34,7 @@ from exactacq.geometry.coordinates import (
 )
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import spans
-from exactacq.geometry.late import Balls, ball_of, balls, clearly_between, from_to, late_point
+from exactacq.geometry.late import BITS, Balls, ball_of, balls, clearly_between, from_to, late_point
 from exactacq.geometry.points import Point
 from exactacq.kernel.bounded import TINY, UNIT, WIDEN
 from exactacq.kernel.radial_faces import RadialFaces
@@ -45,7 +45,7 @@ from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility.features import is_spike
 from exactacq.visibility.line_balls import LONG, long_vector
-from exactacq.visibility.line_families import BITS, held
+from exactacq.visibility.line_families import held
 from exactacq.visibility.place_facts import NOTHING_KNOWN, Alignment, PlaceFacts, Touched, along_edge
 from exactacq.visibility.sensor_range import Range
 

@@ -25,7 +25,8 @@ from flint import arb, fmpq
 
 from exactacq.cached import cached_property
 from exactacq.geometry.constructions import Carrier, is_put_on
-from exactacq.geometry.coordinates import cross, dot, sign
+from exactacq.geometry.coordinates import Vector, cross, dot, sign
+from exactacq.geometry.late import BITS, ball_of
 from exactacq.geometry.points import Point
 from exactacq.kernel import lines
 from exactacq.kernel.bounded import TINY, UNIT, WIDEN
@@ -36,12 +37,9 @@ from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import with_rests
 from exactacq.visibility.quadratic_roots import QuadraticRoot, root_of
 
-Vector: TypeAlias = "tuple[Any, Any]"
 ZERO, ONE = fmpq(0), fmpq(1)
 EAST: Vector = (ONE, ZERO)
 WEST: Vector = (-ONE, ZERO)
-BITS = 64
-"""Precision of the balls from which floats are taken."""
 Held: TypeAlias = "tuple[float, float]"
 """A float near a number, and a bound of its error."""
 
@@ -86,7 +84,7 @@ class Sector(ABC):
     @cached_property
     def balls(self) -> tuple[arb, arb, arb, arb]:
         """Centre and base vector in balls."""
-        x, y, ex, ey = (v.ball(64) if isinstance(v, Real) else arb(v) for v in (*self.center, *self.base))
+        x, y, ex, ey = map(ball_of, (*self.center, *self.base))
         return x, y, ex, ey
 
     @property

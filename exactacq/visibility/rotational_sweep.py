@@ -25,7 +25,7 @@ from typing import TypeAlias
 from flint import arb, fmpq
 
 from exactacq.cached import cached_property
-from exactacq.geometry.coordinates import raw
+from exactacq.geometry.coordinates import Vector, raw
 from exactacq.geometry.curves import Arc, Segment
 from exactacq.geometry.intersections import line_contacts
 from exactacq.geometry.points import Point
@@ -45,7 +45,7 @@ from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable, corners
 from exactacq.visibility.features import directions_at, enters
 from exactacq.visibility.line_balls import LONG, Line, entered, event_ball, first_meetings, long_frame
-from exactacq.visibility.line_families import Rolling, Sector, Sliding, Vector, held
+from exactacq.visibility.line_families import Rolling, Sector, Sliding, held
 from exactacq.visibility.quadratic_roots import QuadraticRoot
 
 Passed: TypeAlias = "tuple[tuple[int, int, int], ...]"
