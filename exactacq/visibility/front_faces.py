@@ -182,11 +182,10 @@ class FrontFaces:
     """The faces within reach of one free point, with their events.
 
     ``floats`` are the faces as the sweep takes them. A face covers the directions counterclockwise from its
-    low event to its high one, and runs from high to low. ``own`` are the edges through the point, at
-    a vertex the incoming one first, found if not given; ``on_ray`` the other straight edges that the point
-    sees edge-on; ``here`` are the events that are the point itself, and ``count`` is more than their
-    numbers. *facts* are what is known of the point
-    beforehand.
+    low event to its high one, and runs from high to low. ``own`` are the edges through the point, at a vertex
+    the incoming one first, found if not given; ``on_ray`` the other straight edges that the point sees
+    edge-on; ``here`` are the events that are the point itself; numbers of events are less than ``count``.
+    *facts* are what is known of the point beforehand.
     """
 
     def __init__(

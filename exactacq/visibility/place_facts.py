@@ -72,7 +72,7 @@ class Alignment:
         return raw(self._line[1] * self.sense)
 
     def tell(self, table: EdgeTable, place: Point) -> None:
-        """Tell the place what the lines from there to what the ray comes to touch: all are the ray's."""
+        """Note at the place what the ray's line touches: that is the line from there to all that it meets."""
         corners = (table.starts[feature] for feature, side in self.touched if not side)
         for goal in (*corners, *self.met.values()):
             if goal is not place:
@@ -178,9 +178,7 @@ def along_way(
     along, (start, end) = line.end - line.start, ends
     feet: dict[int, Point] = {}
     for feature in filter(table.line_numbers.is_circle, features):
-        arc = table.curves[table.line_numbers.first_arc(feature)]
-        assert isinstance(arc, Arc), "only arcs have circles"
-        if (foot := touch_on_tangent(start, end, arc.carrier)) is not None:
+        if (foot := touch_on_tangent(start, end, table.arc_on(feature).carrier)) is not None:
             feet[feature] = foot
     here = [f for f, foot in feet.items() if foot is place]
     lines = frozenset(numbers_of_way(table, ends, features))
@@ -249,16 +247,16 @@ def _alignments(
     anchor: int | None,
     here: Collection[int] = (),
 ) -> Iterator[Alignment]:
-    """What is too near to the place for balls to tell on which ray it lies is left out.
+    """The two rays from a place along a line, each with those *features* that it touches.
 
-    Of some circles it is known that they are touched just *here*, by both rays.
+    What is too near to the place for balls to tell on which ray it lies is left out. Of some circles it is
+    known that they are touched just *here*, by both rays.
     """
     rays: dict[int, set[Touched]] = {1: set(), -1: set()}
     for feature in features:
         is_round = table.line_numbers.is_circle(feature)
-        curve = table.curves[table.line_numbers.first_arc(feature) if is_round else feature]
         # The line touches a circle in the foot of its centre, so that both lie on one ray.
-        way = from_to(place, balls(curve.center if is_round and isinstance(curve, Arc) else curve.start))
+        way = from_to(place, balls(table.arc_on(feature).center if is_round else table.starts[feature]))
         for sense in (1, -1) if feature in here else (ball_sign(dot(way, direction)),):
             side = ball_sign(cross(direction, way)) * sense if is_round else 0
             if sense and bool(side) == is_round:

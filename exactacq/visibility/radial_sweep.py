@@ -38,9 +38,8 @@ from exactacq.visibility.sensor_range import Range
 
 NOTHING, BLOCKED = floats.NOTHING, floats.BLOCKED
 """First faces of cells without one: nothing within reach, and inside the point's own obstacle."""
-
-
 NOWHERE_KNOWN = arb("nan"), arb("nan")
+"""Balls that tell nothing of a point."""
 
 
 class RadialSweep:
@@ -122,12 +121,12 @@ class RadialSweep:
                 turns = sorted(zip(map(_turned, vectors), events, strict=True), key=itemgetter(0))
                 return [[event for _, event in group] for _, group in groupby(turns, key=itemgetter(0))]
         # On a coarse lattice most directions that look the same are; with rounded coordinates most differ.
-        balls = {} if self.table.is_coarse else {event: faces.long_offset(event) for event in events}
+        long = {} if self.table.is_coarse else {event: faces.long_offset(event) for event in events}
 
         def compare(a: int, b: int) -> int:
             if faces.is_one_ray(a, b):
                 return 0
-            turn = clear_turn(balls[a], balls[b]) if balls else 0
+            turn = clear_turn(long[a], long[b]) if long else 0
             return -(turn or _turn(faces.offset(a), faces.offset(b)))
 
         return in_groups(events, compare)
@@ -141,8 +140,8 @@ class RadialSweep:
         if (ray := self.faces.ray(group)) is not None:
             return ray.direction
         vectors = map(self.faces.offset, group)
-        rational = next((v for v in vectors if isinstance(v[0], fmpq) and isinstance(v[1], fmpq)), None)
-        return self.faces.offset(group[0]) if rational is None else rational
+        shown = next((v for v in vectors if isinstance(v[0], fmpq) and isinstance(v[1], fmpq)), None)
+        return self.faces.offset(group[0]) if shown is None else shown
 
     # -- cells -------------------------------------------------------------------------------------
 
