@@ -394,7 +394,9 @@ class Arc:
             angle = atan2(float(radial.y), float(radial.x))
         else:
             angle = atan2(float(ay.mid()), float(ax.mid()))
-        sweep = length / radius if self.ccw else -length / radius
+        # A radius may be smaller than any float.
+        sweep = length / radius if radius else float(turn.mid())
+        sweep = sweep if self.ccw else -sweep
         return Stroke(self.start.xy, self.end.xy, length, self.center.xy, radius, angle, sweep)
 
     @property
