@@ -155,7 +155,7 @@ def is_normal(start: Point, end: Point, carrier: Carrier | None) -> bool:
 
 
 def put_past_corner(point: Point, origin: Point, corner: Point) -> None:
-    """Note that a point was made on the line from another one through a corner; nothing of one of the two."""
+    """Note that a point was made on the line from another one through a corner, which it may be itself."""
     if corner is not point and not is_past_corner(origin, point, corner):
         _put(point, _CornerLine(origin, corner))
 

@@ -118,6 +118,7 @@ class Links:
 
     @cached_property
     def features(self) -> list[Feature]:
+        """The features of the scene."""
         return scene_features(self.table)
 
     @cached_property
@@ -203,7 +204,7 @@ class Links:
                 least = length
             if best.length.compare(length) < 0:
                 continue
-            for piece in self.free_part(item, length):
+            for piece in self._free_part(item, length):
                 best.offer(length, piece)
         return least is not None and best.found and best.length == least
 
@@ -248,7 +249,8 @@ class Links:
         nearer: Real = (other.x - foot.x) * x + (other.y - foot.y) * y
         return nearer.sign() <= 0
 
-    def free_part(self, item: Nearest | NearestFamily, length: Real) -> Iterator[Shortest]:
+    def _free_part(self, item: Nearest | NearestFamily, length: Real) -> Iterator[Shortest]:
+        """What is free of the nearest points of two edges, at a distance of *length*."""
         if isinstance(item, NearestFamily):
             yield from free_pieces(self.table, item)
         elif is_free(self.table, item.start, item.end):

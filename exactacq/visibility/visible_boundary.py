@@ -29,6 +29,7 @@ from exactacq.visibility.sensor_range import Range
 from exactacq.visibility.view_ends import AT_RANGE, ViewEnds
 
 LAST = 1 << 60
+"""The position on a face of what comes after all else there."""
 Placed: TypeAlias = "tuple[int, int, Part]"
 """A part with its face and the position on it."""
 
