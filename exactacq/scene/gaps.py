@@ -1,6 +1,6 @@
 """How near edges, boxes and circles may come to each other: in floats, with margins that cover the rounding.
 
-What is proven here need not be looked at exactly.
+What is proven so need not be looked at exactly, as for the distance of two boundaries.
 """
 
 from __future__ import annotations
@@ -8,7 +8,32 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from exactacq.geometry.nearest_points import nearest_points
+from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import STRAIGHT, EdgeTable, Floats, Ints, quotient
+
+SLACK = 1e-12
+"""Floats of lengths that differ by more than this part tell which is less."""
+
+
+def boundary_distance(table: EdgeTable, i: int, j: int) -> Real:
+    """The exact distance between the boundaries of two obstacles: the least of their edges'."""
+    a, b = (np.array(table.edges_of(k), dtype=np.intp) for k in (i, j))
+    bounds = pair_bounds(table, a, b)
+    least: Real | None = None
+    reach = np.inf
+    for k in np.argsort(bounds, axis=None):
+        r, c = divmod(int(k), len(b))
+        if bounds[r, c] > reach:
+            break
+        for found in nearest_points(table.curves[a[r]], table.curves[b[c]]):
+            if least is None or found.distance_sq < least:
+                least = found.distance_sq
+                reach = float(least.sqrt()) * (1 + SLACK)
+    # The nearest points of two compact sets are those of some two edges, and the loop ends only after it has
+    # found a pair.
+    assert least is not None, "two boundaries have nearest points"
+    return least.sqrt()
 
 
 def pair_bounds(table: EdgeTable, a: Ints, b: Ints) -> Floats:

@@ -11,12 +11,10 @@ import numpy as np
 from flint import fmpq
 
 from exactacq.errors import StrategyError, shown
-from exactacq.geometry.nearest_points import nearest_points
-from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.scene.gaps import pair_bounds
+from exactacq.scene.gaps import boundary_distance
 from exactacq.scene.scene import Scene
 from exactacq.scene.terrain_components import Ground
 from exactacq.sensing.event import Ending, EventKind, Occasion
@@ -222,25 +220,7 @@ def _largest_distance(scene: Scene, radius: fmpq, table: EdgeTable | None) -> Le
             if upper[j] < float(best):
                 break
             if i != j:
-                best = max(best, _distance(table, int(i), int(j)))
+                best = max(best, boundary_distance(table, int(i), int(j)))
                 if best.compare(radius) >= 0:
                     return Length(radius)
     return Length(best)
-
-
-def _distance(table: EdgeTable, i: int, j: int) -> Real:
-    """The closest distance between two obstacles."""
-    a, b = (np.flatnonzero(table.owner == k) for k in (i, j))
-    bounds = pair_bounds(table, a, b)
-    least: Real | None = None
-    for k in np.argsort(bounds, axis=None):
-        r, c = divmod(int(k), bounds.shape[1])
-        if least is not None and float(least) < max(bounds[r, c] - margin(1e-12 * bounds[r, c]), 0.0) ** 2:
-            break
-        for found in nearest_points(table.curves[a[r]], table.curves[b[c]]):
-            if least is None or found.distance_sq < least:
-                least = found.distance_sq
-    # The closest points of two compact sets are a closest pair of some two edges, and the loop breaks only
-    # after it has found a pair.
-    assert least is not None, "two boundaries have a closest pair"
-    return least.sqrt()

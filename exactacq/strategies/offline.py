@@ -18,18 +18,14 @@ from exactacq.cached import cached_property
 from exactacq.geometry.coordinates import raw
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.intersections import spans
-from exactacq.geometry.nearest_points import nearest_points
 from exactacq.geometry.points import Point
 from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
-from exactacq.scene.gaps import pair_bounds
+from exactacq.scene.gaps import SLACK, boundary_distance
 from exactacq.scene.scene import Scene, radius_of, start_of
 from exactacq.visibility.links import START, Node
-
-SLACK = 1e-12
-"""Floats of lengths that differ by more than this part tell which is less."""
 
 
 class Separation(NamedTuple):
@@ -186,23 +182,12 @@ class _Separations:
         key = source, target
         if key not in self._exact:
             assert isinstance(target, int), "the start comes first"
-            self._exact[key] = self._from_start(target) if source == START else self._between(source, target)
+            self._exact[key] = (
+                boundary_distance(self.table, source, target)
+                if isinstance(source, int)
+                else self._from_start(target)
+            )
         return self._exact[key]
-
-    def _between(self, i: Node, j: int) -> Real:
-        """The exact distance between two obstacles: the least of their edges'."""
-        a, b = (np.array(self.table.edges_of(int(k)), dtype=np.intp) for k in (i, j))
-        bounds = pair_bounds(self.table, a, b)
-        rows, columns = np.unravel_index(np.argsort(bounds, axis=None), bounds.shape)
-        least: Real | None = None
-        for r, c in zip(rows, columns, strict=True):
-            if least is not None and bounds[r, c] > float(least.sqrt()) * (1 + SLACK):
-                break
-            for found in nearest_points(self.table.curves[a[r]], self.table.curves[b[c]]):
-                if least is None or found.distance_sq < least:
-                    least = found.distance_sq
-        assert least is not None
-        return least.sqrt()
 
     def _from_start(self, j: int) -> Real:
         squares = (_distance_sq(self.start, self.table.curves[e]) for e in self.table.edges_of(j))
