@@ -42,6 +42,7 @@ from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.scene.gaps import near_hull
 from exactacq.visibility import congruent_chords
+from exactacq.visibility.chords import Chord
 from exactacq.visibility.features import features
 from exactacq.visibility.line_families import Turning
 from exactacq.visibility.links import Links
@@ -313,6 +314,24 @@ class TestBlockedPairs:
         scene = xa.Scene([xa.Circle((0, 0), 1)], enclosure=xa.Circle((0, 0), 3))
         data = xa.visibility_graph(scene, 9).edges[0, 1]
         assert (data["leave"], data["hit"]) == (xa.Point(-1, 0), xa.Point(-3, 0))
+
+    @pytest.mark.parametrize(
+        ("posts", "kinds"),
+        [
+            ([], ["family"]),
+            ([(-2, 0, "1/2")], ["family"]),
+            ([(2, "1/2", "1/2")], ["family"]),
+            ([(2, "-1/2", "1/2")], ["family"]),
+            ([(2, "-1/2", "1/2"), ("7/4", "1/4", "1/4")], ["chord", "family"]),
+            ([(2, 0, "1/2"), (-2, 0, "1/2")], ["family", "family"]),
+        ],
+    )
+    def test_what_is_free_between_concentric_circles(self, posts: list, kinds: list[str]) -> None:
+        """Where the circles start a part was divided, and its end was told once more as a single segment."""
+        shapes = [xa.Circle((0, 0), 1), *(xa.Circle((x, y), r) for x, y, r in posts)]
+        graph = xa.visibility_graph(xa.Scene(shapes, enclosure=xa.Circle((0, 0), 3)), 9)
+        shortest = graph.edges[0, len(shapes)]["link"].shortest
+        assert sorted("chord" if isinstance(item, Chord) else "family" for item in shortest) == kinds
 
     def test_all_pairs_of_many_edges_are_in_no_array(self) -> None:
         """Of two boundaries of 20,000 edges one such array had 3 GB, and there were several."""

@@ -27,8 +27,6 @@ Place: TypeAlias = "Real | Point"
 def free_pieces(table: EdgeTable, family: NearestFamily) -> Iterator[NearestFamily | Chord]:
     """The maximal free sub-families and the free isolated segments of a family.
 
-    Between full circles a family may come in two parts, divided where the first one starts.
-
     What is free changes only beside vertices and arcs' extreme points: one segment between two neighbouring
     critical places tells for all. Cost: a clearance test for every critical place.
     """
@@ -38,15 +36,22 @@ def free_pieces(table: EdgeTable, family: NearestFamily) -> Iterator[NearestFami
     places = _Fractions(family) if family.kind is NearestFamilyKind.PARALLEL else _Directions(family)
     cuts = places.ordered(_critical(table, family, places))
     free = [_is_open(table, places.chord(places.between(a, b))) for a, b in pairwise(cuts)]
+    if places.is_closed:
+        # So that no part runs over the place where all begins and ends, if any ends at all.
+        first = next((k for k, after in enumerate(free) if not (free[k - 1] and after)), 0)
+        cuts = [*cuts[first:-1], *cuts[: first + 1]]
+        free = free[first:] + free[:first]
     run: int | None = None
     for k, cut in enumerate(cuts):
-        before, after = k > 0 and free[k - 1], k < len(free) and free[k]
+        before = free[k - 1] if k > 0 or places.is_closed else False
+        after = k < len(free) and free[k]
         if after and run is None:
             run = k
         elif not after and run is not None:
             yield places.part(cuts[run], cut)
             run = None
-        if not before and not after:
+        is_told = places.is_closed and k == len(free)
+        if not (before or after or is_told):
             segment = places.chord(cut)
             if _is_open(table, segment):
                 yield Chord(segment.start, segment.end, segment.length.algebraic)
@@ -106,6 +111,8 @@ def _critical(table: EdgeTable, family: NearestFamily, places: _Places) -> Itera
 class _Fractions:
     """Places of a parallel family: fractions of its first segment."""
 
+    is_closed = False
+
     def __init__(self, family: NearestFamily) -> None:
         assert isinstance(family.first, Segment)
         assert isinstance(family.second, Segment)
@@ -147,7 +154,7 @@ class _Directions:
         arc = family.first if isinstance(family.first, Arc) else family.second
         assert isinstance(arc, Arc)
         self.family, self.arc = family, arc if arc.ccw else arc.reversed()
-        self.center = self.arc.center
+        self.center, self.is_closed = self.arc.center, self.arc.full
         self.low = self.arc.start - self.center
         self.high = self.arc.end - self.center
 
