@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.points import Point
+from exactacq.kernel.clearance import Place
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.numbers.float_bounds import float_ball, rough
 from exactacq.numbers.rationals import nearest_float
@@ -18,7 +19,7 @@ def curve_image(curve: Curve) -> CurveImage:
     return CurveImage(*_pair(curve.center), *_pair(curve.start - curve.center), radius, sense, curve.full)
 
 
-def held_point(point: Point) -> tuple[float, float, float]:
+def held_point(point: Point) -> Place:
     """A point, or a vector, in floats with one bound for both coordinates; nothing late is made."""
     (x, p), (y, q) = float_ball(point.x), float_ball(point.y)
     return x, y, max(p, q)

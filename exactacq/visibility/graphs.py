@@ -116,19 +116,9 @@ class _GraphOfTangents:
         """Nodes by the ends of tangents that lie on arcs."""
         self._joints: dict[int, int] = {}
         self._straight: set[tuple[int, int]] = set()
-        own = self.pegs.own
-        self._next = count(len(self.pegs.pegs) - own)
-        for peg in self.pegs.pegs[own:]:
-            node = self._place_at(peg.center)
-            if node is None:
-                node = peg.number - own
-                self.places[node] = peg
-                self.graph.add_node(node, point=peg.center, kind="place")
-            self.node_of[peg.number] = node
-        for peg in self.pegs.pegs[:own]:
-            if peg.arc is None:
-                node = self._place_at(peg.center, peg.edges)
-                self.node_of[peg.number] = self._node(peg.center, "corner") if node is None else node
+        self._next = count(len(self.pegs.pegs) - self.pegs.own)
+        self._add_places()
+        self._add_corners()
         found = [(i, j, tangent) for i, j in self._pairs() if (tangent := tangents.between(i, j))]
         contacts: dict[int, list[tuple[_End, Point]]] = {}
         for n, (i, j, tangent) in enumerate(found):
@@ -140,6 +130,22 @@ class _GraphOfTangents:
                 self._add_arc(peg, peg.arc, [end for entry in sides for end in contacts.get(entry, ())])
         for n, (i, j, tangent) in enumerate(found):
             self._add_tangent(n, i, j, tangent)
+
+    def _add_places(self) -> None:
+        own = self.pegs.own
+        for peg in self.pegs.pegs[own:]:
+            node = self._place_at(peg.center)
+            if node is None:
+                node = peg.number - own
+                self.places[node] = peg
+                self.graph.add_node(node, point=peg.center, kind="place")
+            self.node_of[peg.number] = node
+
+    def _add_corners(self) -> None:
+        for peg in self.pegs.pegs[: self.pegs.own]:
+            if peg.arc is None:
+                node = self._place_at(peg.center, peg.edges)
+                self.node_of[peg.number] = self._node(peg.center, "corner") if node is None else node
 
     def _pairs(self) -> Iterator[tuple[int, int]]:
         """Each tangent that floats allow, in one of its two directions."""

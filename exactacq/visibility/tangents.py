@@ -33,7 +33,7 @@ from exactacq.geometry.coordinates import cross, raw, sign
 from exactacq.geometry.curve_images import held_point
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.points import Point, distance
-from exactacq.kernel.clearance import crossed
+from exactacq.kernel.clearance import Place, crossed
 from exactacq.numbers.float_bounds import margin
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import Floats
@@ -50,8 +50,6 @@ KEPT = 64
 """Beams that are kept: several labels of an arc ask for the same."""
 MOST = 64
 """Most parts of a segment."""
-Place = tuple[float, float, float]
-"""A point in floats, with one bound for both coordinates."""
 
 
 @dataclass(frozen=True, slots=True)
