@@ -183,11 +183,12 @@ class Tangents:
         """The free tangent from entry i to entry j, from one touch to the next; None if there is none."""
         known = self._known if max(i, j) < 2 * self.pegs.own else self._of_places
         if (i, j) not in known:
-            back = known.get((self.pegs.turned(j), self.pegs.turned(i)), self)
-            if isinstance(back, Tangents):
-                known[i, j] = self._made(i, j)
+            turned = self.pegs.turned(j), self.pegs.turned(i)
+            if turned in known:
+                back = known[turned]
+                known[i, j] = None if back is None else FreeTangent(back.end, back.start, back.length)
             else:
-                known[i, j] = back and FreeTangent(back.end, back.start, back.length)
+                known[i, j] = self._made(i, j)
         return known[i, j]
 
     def _made(self, i: int, j: int) -> FreeTangent | None:

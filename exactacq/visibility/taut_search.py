@@ -182,13 +182,8 @@ class PathSearch:
         """Go on along the boundary: from a corner or the start to its arcs, along an arc to its end."""
         peg, side = self.pegs.entries[label.entry]
         if peg.arc is None:
-            for arc in self._arcs_at(peg):
-                for sense in (side,) if side else (1, -1):
-                    assert arc.arc is not None
-                    leaves = arc.before if sense > 0 else arc.after
-                    last = arc.arc.end if sense > 0 else arc.arc.start
-                    if leaves == peg.number if side else arc.arc.full or last != label.contact:
-                        self._step(label, (), arc, sense, label.contact, beyond=not side)
+            for onward, sense in self._arcs_from(label):
+                self._step(label, (), onward, sense, label.contact, beyond=not side)
             return
         goal, _ = self.pegs.entries[self._goal]
         if peg.edges[0] in goal.edges and peg.arc.contains(goal.center):
@@ -202,12 +197,25 @@ class PathSearch:
                 joint = self.pegs.pegs[following]
                 self._step(label, tuple((piece, piece.length) for piece in pieces), joint, side, end)
 
-    def _arcs_at(self, peg: Peg) -> Iterator[Peg]:
-        """The arcs that a walk from a corner, or a place, goes on along."""
+    def _arcs_from(self, label: Label) -> Iterator[tuple[Peg, int]]:
+        """The arcs along which a walk from a corner or a place goes on, and on which side.
+
+        From a corner it keeps to its side, along an arc that begins there. From a place it goes both ways,
+        but not off the end of an arc.
+        """
+        peg, side = self.pegs.entries[label.entry]
         for e in sorted(set(peg.edges)):
-            for arc in self.pegs.on_edge.get(e, ()):
-                if arc.arc is not None and arc.arc.contains(peg.center):
-                    yield arc
+            for onward in self.pegs.on_edge.get(e, ()):
+                arc = onward.arc
+                if arc is None or not arc.contains(peg.center):
+                    continue
+                if side:
+                    if (onward.before if side > 0 else onward.after) == peg.number:
+                        yield onward, side
+                    continue
+                for sense, last in ((1, arc.end), (-1, arc.start)):
+                    if arc.full or last != label.contact:
+                        yield onward, sense
 
     def _step(
         self,
