@@ -74,7 +74,7 @@ class _Fraction:
 
 
 def chord_at(sector: Sector, t: Real, behind: Curve | None, ahead: Curve) -> Chord:
-    """The chord of the line at *t*; from the contact itself if *behind* is None (a fan)."""
+    """The chord of the line at *t*; from the contact itself, as a ray, if *behind* is None."""
     contact, direction = sector.touch(t)
     low = Real(0) if behind is None else meet(contact, direction, behind, -1)
     high = meet(contact, direction, ahead, 1)
