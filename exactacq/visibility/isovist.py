@@ -154,9 +154,9 @@ def isovist(scene: Scene, point: object, radius: object = None) -> Isovist:
     """The region visible from a free point within the radius (the scene's own if None).
 
     The point, a `Point` or a pair of numbers, may be algebraic and may lie on a boundary; the radius is
-    rational. Raises `InvalidScene` if the point is inside an obstacle or the radius missing or not positive,
-    and `FormatError` for what is no scene, point or number. Cost: near linear in the edges within the
-    radius, after one pass over all edges of a scene.
+    rational. Raises `InvalidScene` if the point is inside an obstacle or beyond 10^100, or the radius missing
+    or not positive, and `FormatError` for what is no scene, point or number. Cost: near linear in the edges
+    within the radius, after one pass over all edges of a scene.
 
     >>> import exactacq as xa
     >>> print(isovist(xa.load("circles"), (0, 0), radius=4).perimeter)

@@ -91,10 +91,10 @@ def shortest_path(
     point on such a wall is on its free side, where the robot was that saw it; single known points are none.
 
     Lengths are compared exactly, and those that are equal are proved to be: see `ShortestPath` for the choice
-    among them. Raises `InvalidScene` if a point lies inside an obstacle or outside the terrain, `FormatError`
-    for what is no point, no scene and no map, and `Undecided` where lengths are too close to tell. Cost:
-    linear in the number of corners and arcs for each that the search comes to; only the tangents that are
-    tried are made.
+    among them. Raises `InvalidScene` if a point lies inside an obstacle, outside the terrain or beyond
+    10^100, `FormatError` for what is no point, no scene and no map, and `Undecided` where lengths are too
+    close to tell. Cost: linear in the number of corners and arcs for each that the search comes to; only the
+    tangents that are tried are made.
 
     >>> import exactacq as xa
     >>> wall = xa.Polygon([(0, -1), (1, -1), (1, 3), (0, 3)])
