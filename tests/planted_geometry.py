@@ -220,7 +220,7 @@ CONTACT_FAULTS = [
         "a segment passes its line",
         POINTS,
         (segment((3, 0), (4, 1)), AXIS),
-        Fault(curves, "Segment.passes", " and self.contains(point)", ""),
+        Fault(curves, "Segment.passes", " or not self.contains(point)", ""),
     ),
     Planted(
         "balls prove that an arc does not pass what it does",
