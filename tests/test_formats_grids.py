@@ -214,6 +214,7 @@ def test_see_through_pixels_are_free(tmp_path: Path) -> None:
         b"P2\n# plan\n2 2\n# most\n255\n0 255 # row\n255 0\n",
         b"P5 2 2 255\n\x00\xff\xff\x00",
         b"P5 2 2 65535\n\x00\x00\xff\xff\xff\xff\x00\x01",
+        b"P5 2 2 255\n#\xff\xff\n",  # pixels of values 35, 255, 255 and 10, no comment
     ],
 )
 def test_pgm_in_text_and_bytes(tmp_path: Path, data: bytes) -> None:

@@ -23,7 +23,8 @@ MAX_HEADER = 1 << 16
 """Longest header of a PGM, comments included."""
 MAX_PLAIN = 1 << 22
 """Most pixels of a PGM whose numbers are text."""
-_HEADER = re.compile(rb"P([25])" + 3 * rb"(?:\s+(?:#[^\n]*\n\s*)*)(\d{1,9})" + rb"(?:\s+#[^\n]*\n|\s)")
+_HEADER = re.compile(rb"P([25])" + 3 * rb"(?:\s+(?:#[^\n]*\n\s*)*)(\d{1,9})" + rb"\s")
+"""One blank ends it: a # after that is a pixel, or begins a comment among the numbers of a P2."""
 
 
 @dataclass(frozen=True, slots=True)
