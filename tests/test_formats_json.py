@@ -198,6 +198,7 @@ def test_bad_text_is_one_line_with_place_and_reason(tmp_path: Path, text: str) -
         (b'{"a":' * 100_000, "nested too deeply"),
         (b'{"obstacles": [], "radius": ' + b"7" * 100_000 + b"}", "radius: not a number: '7777"),
         (b'{"obstacles": [' + b"1," * 2_000_000 + b"1]}", "more than 200000 edges"),
+        (b"{" + b",".join(b'"%d": 0' % (k % 999_999) for k in range(1_000_000)) + b"}", "'0' stands twice"),
     ],
 )
 def test_noise_is_refused_quickly(tmp_path: Path, content: bytes, message: str) -> None:
