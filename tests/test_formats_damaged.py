@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import os
 import time
+import tracemalloc
 from collections.abc import Callable
 from pathlib import Path
 
@@ -21,6 +22,7 @@ from nightly import NIGHTLY
 import exactacq as xa
 from exactacq.files.loops import nesting
 from exactacq.files.repairs import flattened
+from exactacq.files.svg.document import parse
 from exactacq.scene import validation
 
 COUNT = int(os.environ.get("EXACTACQ_MUTATIONS", "60" if NIGHTLY else "8"))
@@ -111,6 +113,16 @@ def test_files_that_are_known_to_hurt(tmp_path: Path, name: str) -> None:
 def test_no_entity_is_expanded(tmp_path: Path, data: bytes) -> None:
     with pytest.raises(xa.FormatError, match=r"it declares the entity '.'; save it without"):
         read("svg", put(KINDS["svg"], tmp_path, data), {})
+
+
+def test_values_that_a_dtd_gives_to_all_elements_are_not_taken() -> None:
+    """Such a value is a new text for each element: a megabyte of file became gigabytes."""
+    dtd = f'<!DOCTYPE svg [<!ATTLIST g id CDATA "{"x" * 100_000}">]>'
+    tracemalloc.start()
+    root = parse(f"{dtd}<svg>{'<g/>' * 1000}</svg>".encode())
+    memory = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert len(root.parts) == 1000 and memory < 10_000_000
 
 
 # -- what thousands of each format found --------------------------------------------------------------

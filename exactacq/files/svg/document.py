@@ -45,6 +45,8 @@ def parse(data: bytes) -> Element:
     )
     parser.EndElementHandler = lambda _: builder.stack.pop()
     parser.EntityDeclHandler = _refuse_entity
+    # Values that a DTD gives to all elements of a kind say nothing of a drawing, and expand as entities do.
+    parser.specified_attributes = True
     try:
         parser.Parse(data, True)
     except expat.ExpatError as error:
