@@ -244,3 +244,11 @@ def test_a_path_beside_the_boundary_has_no_map(tmp_path: Path) -> None:
     found = xa.load_run(put(KINDS["run"], tmp_path, json.dumps(run).encode()))
     with pytest.raises(xa.FormatError, match="no edge of the boundary carries"):
         _ = found.map
+
+
+def test_a_drawing_without_entities_and_with_damaged_layouts(tmp_path: Path) -> None:
+    """What is on paper is asked for where the model is empty, and there ezdxf meets the damage."""
+    data = (Path(__file__).parent / "data" / "issue21.dxf").read_bytes()
+    path = put(KINDS["dxf"], tmp_path, data[:16405] + 3 * data[14291:16405] + data[16405:])
+    with pytest.raises(xa.FormatError, match="a damaged entity"):
+        xa.load(path, start=(0, 0))

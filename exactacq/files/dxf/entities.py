@@ -77,12 +77,13 @@ def read_drawing(path: Path, layers: Iterable[str] | None, flattening: Flattenin
             drawing.homes[order] = layer
             if selected.take(layer):
                 _Reader(drawing, order, flattening).read(entity)
+        ways = [] if order else [*_on_paper(document)]
+        unit = _unit(document)
     except FormatError:
         raise
     except Exception as error:  # ezdxf reads lazily: a damaged entity shows only here, in many ways
         raise FormatError(f"a damaged entity ({one_line(error)}); save or export it again") from None
     selected.check(drawing)
-    ways = [] if order else [*_on_paper(document)]
     if hidden:
         names = ", ".join(one_line(repr(name)) for name in [*hidden][:MOST_NAMED])
         ways.append(f"--layers reads what is hidden too, as on {names}")
@@ -92,7 +93,7 @@ def read_drawing(path: Path, layers: Iterable[str] | None, flattening: Flattenin
         ways.append(f"ellipses and splines are {BY_ARCS}")
     drawing.readable = "; ".join(ways)
     if drawing.layers:
-        drawing.unit = _unit(document)
+        drawing.unit = unit
         said = f"the file's unit: {drawing.unit}" if drawing.unit else "the file names no unit"
         drawing.notes.append(f"{said}; layers: {drawing.layer_list()}")
     return drawing
