@@ -12,7 +12,6 @@ import re
 from collections.abc import Iterable, Iterator
 from hashlib import sha256
 from io import StringIO
-from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +22,7 @@ from flint import fmpq
 
 from exactacq.errors import FormatError, about
 from exactacq.files.counting import count
+from exactacq.files.dxf.blocks import MAX_ENTITIES, Unseen, shown
 from exactacq.files.loops.chains import ZERO, Chain, Corner
 from exactacq.files.loops.drawing import Drawing, LayerChoice
 from exactacq.files.loops.rational_arcs import arc_corners
@@ -33,14 +33,10 @@ from exactacq.files.source import MAX_EDGES, one_line, read_bytes
 from exactacq.numbers.rationals import rational
 from exactacq.scene.shapes import Circle
 
-MAX_ENTITIES = 2 * MAX_EDGES
-"""Most entities and vertices of a file, counted before ezdxf starts: it takes about 2 KB for each."""
 MAX_LINES = 20 * MAX_EDGES
 """Most lines of a file, two for each value: ezdxf takes 7 microseconds and 100 bytes for each."""
 MOST_NAMED = 6
 """So many layers with hidden entities are named at most."""
-MAX_DEPTH = 16
-"""Deepest nesting of blocks that is followed; drawings have two or three levels, a loop has no end."""
 BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
 _OPENING = re.compile(rb"(?:\xef\xbb\xbf)?\s*(?:999[ \t]*\r?\n[^\n]*\n\s*)*0[ \t]*\r?\n[ \t]*SECTION\s")
 _HEADER = re.compile(rb"\n[ \t]*2[ \t]*\r?\n[ \t]*HEADER\s")
@@ -64,8 +60,8 @@ def read_drawing(path: Path, layers: Iterable[str] | None, flattening: Flattenin
     selected = LayerChoice(layers)
     order = 0
     try:
-        unseen, hidden = _Unseen(document), dict[str, None]()
-        for entity, layer, is_hidden in _entities(document.modelspace(), drawing, unseen):
+        hidden = dict[str, None]()
+        for entity, layer, is_hidden in shown(document.modelspace(), drawing, Unseen(document)):
             order += 1
             if order > MAX_ENTITIES:
                 raise FormatError(f"its blocks expand to more than {MAX_ENTITIES} entities; export one part")
@@ -104,9 +100,9 @@ def _on_paper(document: Any) -> Iterator[str]:
     for layout in document.layouts:
         if layout.is_modelspace:
             continue
-        shown = sum(entity.dxftype() != "VIEWPORT" for entity in layout)
-        if shown:
-            what = f"{count(shown, 'entity', 'entities')} on the layout {one_line(repr(layout.name))}"
+        number = sum(entity.dxftype() != "VIEWPORT" for entity in layout)
+        if number:
+            what = f"{count(number, 'entity', 'entities')} on the layout {one_line(repr(layout.name))}"
             yield f"only what is in the model space is read: move what is on paper there ({what})"
 
 
@@ -187,68 +183,6 @@ def _heavy(lines: list[str]) -> Iterator[str]:
             yield from ("0", "VERTEX", "8", layer)
         if not is_light or code not in _LIGHT:
             yield from (code, value)
-
-
-class _Unseen:
-    """The layers of a document that are switched off or frozen."""
-
-    def __init__(self, document: Any) -> None:
-        layers = {layer.dxf.name.casefold(): layer for layer in document.layers}
-        self._frozen = {name for name, layer in layers.items() if layer.is_frozen()}
-        self._off = {name for name, layer in layers.items() if layer.is_off()}
-
-    def hides(self, entity: Any, layer: str) -> bool:
-        """Whether an entity on a layer is hidden; a reference to a block is not by a layer that is off."""
-        name = layer.casefold()
-        if entity.dxf.get("invisible", 0) or name in self._frozen:
-            return True
-        return name in self._off and entity.dxftype() != "INSERT"
-
-
-def _entities(layout: Iterable[Any], drawing: Drawing, unseen: _Unseen) -> Iterator[tuple[Any, str, bool]]:
-    """(entity, layer, whether it is hidden), blocks and multiple lines expanded.
-
-    Layer "0" in a block is the layer of its reference.
-    """
-
-    def skip(entity: Any, reason: str) -> None:
-        """Count an entity of a block that ezdxf cannot place."""
-        drawing.dropped[f"{entity.dxftype()} in a block"] += 1
-
-    expanded = multiple = 0
-    stack: list[tuple[Iterator[Any], str | None, int, bool]] = [(iter(layout), None, 0, False)]
-    while stack:
-        entities, outer, depth, is_hidden = stack[-1]
-        entity = next(entities, None)
-        if entity is None:
-            stack.pop()
-            continue
-        layer = str(entity.dxf.get("layer", "0"))
-        layer = outer if outer is not None and layer == "0" else layer
-        is_hidden = is_hidden or unseen.hides(entity, layer)
-        if entity.dxftype() == "MLINE":
-            lines = [part for part in entity.virtual_entities() if part.dxftype() in ("LINE", "ARC")]
-            stack.append((iter(lines), layer, depth, is_hidden))
-            if lines:
-                multiple += 1
-            else:
-                drawing.dropped["MLINE without a style"] += 1
-        elif entity.dxftype() != "INSERT":
-            yield entity, layer, is_hidden
-        elif depth >= MAX_DEPTH:
-            raise FormatError(f"blocks are nested more than {MAX_DEPTH} deep (one in itself?); explode them")
-        else:
-            expanded += entity.mcount
-            if expanded > MAX_ENTITIES:
-                raise FormatError(f"it refers to blocks more than {MAX_ENTITIES} times; export one part")
-            copies = entity.multi_insert() if entity.mcount > 1 else [entity]
-            content = chain.from_iterable(c.virtual_entities(skipped_entity_callback=skip) for c in copies)
-            stack.append((content, layer, depth + 1, is_hidden))
-    for number, what in ((expanded, "block reference"), (multiple, "MLINE")):
-        if number:
-            drawing.notes.append(
-                f"expanded {count(number, what)}; their content is placed in double precision"
-            )
 
 
 class _Reader:
