@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from itertools import chain
+from dataclasses import dataclass
 from typing import Any
+
+from ezdxf import transform
+from ezdxf.math import Matrix44
 
 from exactacq.errors import FormatError
 from exactacq.files.counting import count
@@ -15,6 +18,8 @@ MAX_ENTITIES = 2 * MAX_EDGES
 """Most entities and vertices of a file, counted before ezdxf starts: it takes about 2 KB for each."""
 MAX_DEPTH = 16
 """Deepest nesting of blocks that is followed; drawings have two or three levels, a loop has no end."""
+READ = ("LINE", "ARC", "CIRCLE", "LWPOLYLINE", "POLYLINE", "ELLIPSE", "SPLINE")
+"""The kinds of entities that may be read."""
 
 
 class Unseen:
@@ -33,47 +38,92 @@ class Unseen:
         return name in self._off and entity.dxftype() != "INSERT"
 
 
+@dataclass(frozen=True, slots=True)
+class _BlockLevel:
+    """The entities of a layout or of blocks in it, each with the matrix that places it: None in a layout.
+
+    *layer* is that of the reference to the block, *depth* how many blocks there are around.
+    """
+
+    entities: Iterator[tuple[Any, Matrix44 | None]]
+    layer: str | None = None
+    depth: int = 0
+    is_hidden: bool = False
+
+
 def shown(layout: Iterable[Any], drawing: Drawing, unseen: Unseen) -> Iterator[tuple[Any, str, bool]]:
     """(entity, layer, whether it is hidden), blocks and multiple lines expanded.
 
-    Layer "0" in a block is the layer of its reference.
+    Layer "0" in a block is the layer of its reference. Entities of other kinds than `READ` stay where they
+    are in their block.
     """
-
-    def skip(entity: Any, reason: str) -> None:
-        """Count an entity of a block that ezdxf cannot place."""
-        drawing.dropped[f"{entity.dxftype()} in a block"] += 1
-
-    expanded = multiple = 0
-    stack: list[tuple[Iterator[Any], str | None, int, bool]] = [(iter(layout), None, 0, False)]
+    placed = expanded = multiple = 0
+    stack = [_BlockLevel((entity, None) for entity in layout)]
     while stack:
-        entities, outer, depth, is_hidden = stack[-1]
-        entity = next(entities, None)
+        level = stack[-1]
+        entity, matrix = next(level.entities, (None, None))
         if entity is None:
             stack.pop()
             continue
-        layer = str(entity.dxf.get("layer", "0"))
-        layer = outer if outer is not None and layer == "0" else layer
-        is_hidden = is_hidden or unseen.hides(entity, layer)
-        if entity.dxftype() == "MLINE":
+        kind, layer = entity.dxftype(), str(entity.dxf.get("layer", "0"))
+        layer = level.layer if level.layer is not None and layer == "0" else layer
+        is_hidden = level.is_hidden or unseen.hides(entity, layer)
+        if kind == "MLINE":
             lines = [part for part in entity.virtual_entities() if part.dxftype() in ("LINE", "ARC")]
-            stack.append((iter(lines), layer, depth, is_hidden))
+            stack.append(_BlockLevel(iter([(line, matrix) for line in lines]), layer, level.depth, is_hidden))
             if lines:
                 multiple += 1
             else:
                 drawing.dropped["MLINE without a style"] += 1
-        elif entity.dxftype() != "INSERT":
-            yield entity, layer, is_hidden
-        elif depth >= MAX_DEPTH:
-            raise FormatError(f"blocks are nested more than {MAX_DEPTH} deep (one in itself?); explode them")
-        else:
+        elif kind == "INSERT":
+            if level.depth >= MAX_DEPTH:
+                raise FormatError(
+                    f"blocks are nested more than {MAX_DEPTH} deep (one in itself?); explode them"
+                )
+            block = entity.block()
+            if block is None:
+                drawing.dropped["INSERT of a missing block"] += 1
+                continue
             expanded += entity.mcount
-            if expanded > MAX_ENTITIES:
-                raise FormatError(f"it refers to blocks more than {MAX_ENTITIES} times; export one part")
-            copies = entity.multi_insert() if entity.mcount > 1 else [entity]
-            content = chain.from_iterable(c.virtual_entities(skipped_entity_callback=skip) for c in copies)
-            stack.append((content, layer, depth + 1, is_hidden))
+            # What shows nothing takes its time too, and so does an empty block.
+            placed += entity.mcount * max(1, len(block))
+            if placed > MAX_ENTITIES:
+                raise FormatError(f"its blocks expand to more than {MAX_ENTITIES} entities; export one part")
+            stack.append(_BlockLevel(_content(entity, block, matrix), layer, level.depth + 1, is_hidden))
+        elif matrix is None or kind not in READ:
+            yield entity, layer, is_hidden
+        else:
+            parts = _placed(entity, matrix)
+            if not parts:
+                drawing.dropped[f"{kind} in a block"] += 1
+            yield from ((part, layer, is_hidden) for part in parts)
     for number, what in ((expanded, "block reference"), (multiple, "MLINE")):
         if number:
             drawing.notes.append(
                 f"expanded {count(number, what)}; their content is placed in double precision"
             )
+
+
+def _content(
+    reference: Any, block: Iterable[Any], outer: Matrix44 | None
+) -> Iterator[tuple[Any, Matrix44 | None]]:
+    """The entities of a block as often as a reference places it, but for the templates of attributes.
+
+    Matrices are multiplied, and each entity is placed once, by the product. References in a block are not
+    placed as entities are: in a block that is stretched along one axis, a turned one has no two scales.
+    """
+    for copy in reference.multi_insert() if reference.mcount > 1 else [reference]:
+        matrix = copy.matrix44()
+        matrix = matrix if outer is None else matrix * outer
+        yield from ((entity, matrix) for entity in block if entity.dxftype() != "ATTDEF")
+
+
+def _placed(entity: Any, matrix: Matrix44) -> list[Any]:
+    """What a matrix makes of an entity, several parts of a polyline with arcs that become elliptical.
+
+    None of an entity that ezdxf cannot place, or that a scale of 0 makes nothing of.
+    """
+    try:
+        return list(transform.copies([entity], matrix)[1])
+    except (ArithmeticError, ValueError):
+        return []
