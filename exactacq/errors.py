@@ -171,7 +171,7 @@ class about:  # noqa: N801  # It is used as a word: ``with about("start"):``.
 
     def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
         if isinstance(error, FormatError):
-            raise FormatError(f"{self._part}: {error}") from None
+            raise type(error)(f"{self._part}: {error}") from None
 
 
 def shown(value: object) -> str:

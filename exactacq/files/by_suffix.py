@@ -57,7 +57,7 @@ def naming(path: str | Path) -> Iterator[None]:
     try:
         yield
     except FormatError as error:
-        raise FormatError(f"{one_line(path)}: {error}") from None
+        raise type(error)(f"{one_line(path)}: {error}") from None
 
 
 def contents_of_geo(

@@ -17,7 +17,6 @@ from exactacq.files.checking.starts import rounded_up
 from exactacq.files.loops.assembly import default_tolerance, in_full
 from exactacq.files.loops.contents import AS_TOLD, Contents
 from exactacq.files.loops.drawing import is_named, main_box
-from exactacq.files.repairs.flattened import BY_ARCS
 from exactacq.geometry.points import Point
 from exactacq.geometry.strokes import Floats
 from exactacq.numbers.rationals import nearest_float, plain
@@ -172,14 +171,14 @@ def _proposals(contents: Contents, found: Judged) -> Iterator[Options]:
     yield from ({"tolerance": tolerance} for tolerance in sorted({t for t in closing if t is not None}))
     if any(len(v.loops) == 1 for v in found.violations):
         yield from ({"tolerance": many * default_tolerance(size)} for many in COARSER)
-    if any("branch point" in note for note in contents.notes):
+    if contents.branches:
         # What is closer than the default tolerance may have been joined.
         yield {"tolerance": FINER * default_tolerance(size)}
     if meeting:
         yield from _fewer_layers(contents, found, meeting)
     if None in closing:
         yield _walls_of(contents)
-    if any(BY_ARCS in note for note in contents.notes):
+    if contents.has_curves:
         yield {"flatten": near_enough(size)}
 
 

@@ -19,7 +19,7 @@ from exactacq.files.checking.lines import OpenChain, open_chains
 from exactacq.files.checking.sketch import Sketch, places_of
 from exactacq.files.checking.starts import Beginning, beginning, vision
 from exactacq.files.loops.contents import Contents
-from exactacq.files.repairs.flattened import BY_ARCS
+from exactacq.files.repairs.flattened import CurvesRefused
 from exactacq.files.rereading import rereading
 from exactacq.files.sources import NamedSource
 from exactacq.geometry.intersections import ContactKind
@@ -172,9 +172,7 @@ def _first_read(source: NamedSource, start: Any, options: dict[str, Any]) -> tup
     """What a file holds, and with which options it is read: curves by arcs where they are refused."""
     try:
         return source.contents(start, options), options
-    except FormatError as error:
-        if BY_ARCS not in str(error):
-            raise
+    except CurvesRefused:
         for length in COARSE:
             with suppress(FormatError):
                 # However coarse the arcs are, the ends of curves tell how large the drawing is.

@@ -86,6 +86,7 @@ def read_drawing(path: Path, layers: Iterable[str] | None, flattening: Flattenin
     if flattening is not None:
         drawing.notes += flattening.notes()
     elif drawing.dropped["ELLIPSE"] or drawing.dropped["SPLINE"]:
+        drawing.has_curves = True
         ways.append(f"ellipses and splines are {BY_ARCS}")
     drawing.readable = "; ".join(ways)
     if drawing.layers:

@@ -14,6 +14,7 @@ from exactacq.files.loops.contents import Contents, Layers
 from exactacq.files.loops.cusps import open_cusps
 from exactacq.files.loops.drawing import Drawing, main_box
 from exactacq.files.loops.stitching import Stitched, stitch
+from exactacq.files.repairs.flattened import CurvesRefused
 from exactacq.files.repairs.gaps import MOST_EDGES, ChainGaps, copied, gaps_of
 from exactacq.files.repairs.thicken import thicken
 from exactacq.files.source import check_edges
@@ -60,7 +61,8 @@ def drawing_contents(
         other = SHAPES if is_all else f"select other layers of {drawing.layer_list()}"
     if not drawing.chains and not drawing.circles:
         way = drawing.readable or other
-        raise FormatError(f"nothing to read{_because(_left_out(drawing.dropped))}; {way}")
+        refused = CurvesRefused if drawing.has_curves else FormatError
+        raise refused(f"nothing to read{_because(_left_out(drawing.dropped))}; {way}")
     corners = drawing.corners()
     (x0, x1), (y0, y1) = ((min(values), max(values)) for values in zip(*corners, strict=True))
     startless = (
@@ -117,6 +119,8 @@ def drawing_contents(
         lacking="" if shapes else lacking,
         open_chains=() if thickness else tuple(map(tuple, stitched.open_chains)),
         gaps=gaps,
+        branches=len(stitched.branches),
+        has_curves=drawing.has_curves,
         walls=len(walls),
         layers=Layers(drawing.layers, drawing.chosen, _homes(drawing, shapes)),
         unit=drawing.unit,

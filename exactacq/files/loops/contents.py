@@ -72,6 +72,10 @@ class Contents:
     """Lines that do not close and are left out, each as its pieces in order."""
     gaps: ChainGaps = field(default_factory=ChainGaps)
     """What would close these."""
+    branches: int = 0
+    """At so many points three or more ends of lines meet, so that no loop goes through."""
+    has_curves: bool = False
+    """Whether curves were left out that are read with ``flatten``."""
     walls: int = 0
     """So many of the last loops are walls around lines: nothing within them is free."""
     layers: Layers = field(default_factory=Layers)

@@ -42,6 +42,8 @@ class Drawing:
     """What the file says of its unit of length."""
     readable: str = ""
     """With which option some of what was left out is read."""
+    has_curves: bool = False
+    """Whether curves were left out that are read with ``flatten``."""
 
     def corners(self) -> list[tuple[fmpq, fmpq]]:
         """All vertices, and of circles the corners of their boxes (arcs may reach beyond these)."""

@@ -23,7 +23,7 @@ from exactacq.files.loops.chains import Chain, Corner, root_above, scientific_ab
 from exactacq.files.loops.contents import Contents
 from exactacq.files.loops.drawing import Drawing, LayerChoice
 from exactacq.files.loops.rational_arcs import arc_around
-from exactacq.files.repairs.flattened import BY_ARCS, Flattening
+from exactacq.files.repairs.flattened import BY_ARCS, CurvesRefused, Flattening
 from exactacq.files.source import MAX_EDGES, check_edges, one_line, read_bytes
 from exactacq.files.svg.document import MAX_DEPTH, MAX_ELEMENTS, Element, named, parse
 from exactacq.files.svg.path_data import DrawnCurve, Subpath, oval_arc, subpaths
@@ -199,7 +199,7 @@ class _SvgReader:
             found, narrowed = _basic(kind, attributes, frame.box)
             matrix = matrix.after(narrowed)
             if narrowed.d != 1 and self.flattening is None:
-                raise FormatError(
+                raise CurvesRefused(
                     "a rectangle with elliptical corners is not read: give it rx and ry alike, or have it "
                     f"{BY_ARCS}"
                 )
@@ -251,7 +251,7 @@ class _SvgReader:
         radii = [length(attributes, key, box) for key in (("r",) if kind == "circle" else ("rx", "ry"))]
         round_one = radii[0] == radii[-1] and matrix.is_similar()
         if not round_one and self.flattening is None:
-            raise FormatError(f"an ellipse is not read: replace it by arcs, or have it {BY_ARCS}")
+            raise CurvesRefused(f"an ellipse is not read: replace it by arcs, or have it {BY_ARCS}")
         if min(radii) <= 0:
             self.drawing.dropped[f"{kind} of no radius"] += 1
             return
@@ -277,7 +277,7 @@ def _moved(subpath: Subpath, matrix: Matrix, oval: bool = False) -> list[Corner]
     """The corners where a matrix puts them; `FormatError` for arcs made elliptical, if not *oval*."""
     sense = 1 if matrix.determinant > 0 else -1
     if not oval and _made_oval(subpath, matrix):
-        raise FormatError(
+        raise CurvesRefused(
             "its transform makes arcs elliptical, which are not read; apply another one, or have them "
             f"{BY_ARCS}"
         )

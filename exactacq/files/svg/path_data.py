@@ -12,7 +12,7 @@ from exactacq.errors import FormatError
 from exactacq.files.loops.chains import ZERO, Corner, root_above
 from exactacq.files.loops.rational_arcs import arc_of_radius, rational_turn
 from exactacq.files.repairs.bezier import BezierPiece, arc_pieces, polynomial
-from exactacq.files.repairs.flattened import BY_ARCS
+from exactacq.files.repairs.flattened import BY_ARCS, CurvesRefused
 from exactacq.files.source import MAX_EDGES, one_line
 from exactacq.files.svg.transforms import NUMBER
 from exactacq.numbers.rationals import rational
@@ -106,7 +106,7 @@ class _PathReader:
     def _step(self, command: str) -> None:
         kind, relative = command.upper(), command.islower()
         if kind in _CURVES and not self.curved:
-            raise FormatError(
+            raise CurvesRefused(
                 f"a {_CURVES[kind]} curve is not read: replace it by lines and arcs, or have it {BY_ARCS}"
             )
         if kind not in _ARGUMENTS:
@@ -167,7 +167,7 @@ class _PathReader:
             if self.curved:
                 self._elliptical(end, given)
                 return
-            raise FormatError(
+            raise CurvesRefused(
                 "an elliptical arc (A of two radii) is not read: replace it by circular ones, or have it "
                 f"{BY_ARCS}"
             )
