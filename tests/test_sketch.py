@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from random import Random
 
 import numpy as np
@@ -69,3 +70,12 @@ def test_arcs_reach_as_far_as_they_do(seed: int) -> None:
         arc = Arc.from_bulge(xa.Point(a, b), xa.Point(c, d), fmpq(dice.choice((-30, -7, 3, 10, 25)), 10))
         found = np.array(arc.stroke().extremes())
         assert (*found.min(axis=0), *found.max(axis=0)) == pytest.approx(box(arc), abs=1e-9)
+
+
+def test_products_of_absurd_coordinates_do_not_overflow() -> None:
+    """Python printed a warning of numpy's beside what `check` says."""
+    far = 10**150
+    shape = xa.Outline([(0, 0, "1/2"), (far, 1), (far, far), (-far, far, "1/2"), (-far, 0)])
+    with warnings.catch_warnings(action="error"):
+        around = Sketch([shape]).around(np.array([(1e149, 1e149), (1.2e150, 1.2e150)]))
+    assert around.tolist() == [[True], [False]]

@@ -167,7 +167,8 @@ def _crossed(places: Floats, starts: Floats, ends: Floats) -> Bools:
     x, y = places[:, :1], places[:, 1:]
     across = (starts[:, 1] > y) != (ends[:, 1] > y)
     rise = np.where(starts[:, 1] == ends[:, 1], 1.0, ends[:, 1] - starts[:, 1])
-    crossing = starts[:, 0] + (y - starts[:, 1]) * (ends[:, 0] - starts[:, 0]) / rise
+    with np.errstate(over="ignore"):  # by lines of chords that are not crossed
+        crossing = starts[:, 0] + (y - starts[:, 1]) * (ends[:, 0] - starts[:, 0]) / rise
     inside: Bools = ((across & (x < crossing)).sum(axis=1) % 2).astype(bool)
     return inside
 
@@ -179,6 +180,6 @@ def _bulged(places: Floats, starts: Floats, ends: Floats, centers: Floats, radii
     x, y = places[:, :1], places[:, 1:]
     beyond = ux * (y - ay) - uy * (x - ax)
     side = ux * (cy - ay) - uy * (cx - ax)
-    between = (beyond * side < 0) & (np.hypot(x - cx, y - cy) < radii[arcs])
+    between = (np.sign(beyond) * np.sign(side) < 0) & (np.hypot(x - cx, y - cy) < radii[arcs])
     inside: Bools = (between.sum(axis=1) % 2).astype(bool)
     return inside
