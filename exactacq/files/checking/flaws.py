@@ -60,7 +60,7 @@ def judged(contents: Contents) -> Judged:
 
 def frame(shapes: Sequence[Shape]) -> int | None:
     """The loop around most others, if it is around more than half of them, and large beside each."""
-    sketch = Sketch(shapes)
+    sketch = Sketch.of(shapes)
     held = sketch.nesting.sum(axis=0)
     if not len(held) or not held.max() or 2 * held.max() <= len(shapes) - 1:
         return None

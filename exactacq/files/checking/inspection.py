@@ -206,7 +206,7 @@ class _Inquiry:
 
     def found(self, name: str) -> Inspection:
         """All that is to be told."""
-        sketch = Sketch([loop.shape for loop in self.before.loops])
+        sketch = Sketch.of([loop.shape for loop in self.before.loops])
         around = sketch.nesting
         counted = zip(
             self.before.loops, around.sum(axis=1).tolist(), around.sum(axis=0).tolist(), strict=True

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from exactacq.cached import cached_property
 from exactacq.files.loops.drawing import main_box
+from exactacq.files.rereading import once
 from exactacq.geometry.curves import Curve, Segment
 from exactacq.geometry.strokes import FLAT, Floats, Stroke
 from exactacq.numbers.rationals import nearest_float
@@ -50,6 +51,11 @@ class Sketch:
         """Of the circle that bulges beyond each chord; 0 of straight ones."""
         self._corners = [stroke.start for stroke in curves]
         self._extremes = [place for stroke in curves for place in stroke.extremes()]
+
+    @classmethod
+    def of(cls, shapes: Sequence[Shape]) -> Sketch:
+        """The sketch of some loops, made once while a file is read several times."""
+        return once(("sketch", *shapes), lambda: cls(shapes))
 
     @property
     def is_empty(self) -> bool:

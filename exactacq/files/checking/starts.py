@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from exactacq.errors import FormatError, InvalidScene, Undecided
 from exactacq.files.checking.sketch import Bools, Sketch
 from exactacq.files.loops.contents import AS_TOLD, Contents
+from exactacq.files.rereading import once
 from exactacq.geometry.strokes import Floats
 from exactacq.numbers.rationals import rational
 from exactacq.scene.scene import Scene
@@ -59,6 +60,29 @@ class Beginning:
     """Whether it was the first choice."""
 
 
+@dataclass(frozen=True, slots=True)
+class _Region:
+    """A place of a grid, the roomiest one of those that have the same loops around them."""
+
+    place: Floats
+    around: Bools
+    room: float
+
+
+@dataclass(frozen=True, slots=True)
+class _SurveyedGrid:
+    """The regions of a grid in the order of their places, the steps of the grid, the size of everything."""
+
+    regions: list[_Region]
+    step: Floats
+    size: float
+
+    def roomiest(self, sketch: Sketch, k: int) -> tuple[Floats, float]:
+        """The roomiest place near that of a region, and its room."""
+        region = self.regions[k]
+        return once(("roomiest", sketch, k), lambda: _roomier(sketch, region.place, region.around, self.step))
+
+
 def beginning(contents: Contents, again: Callable[[Place], Contents]) -> Beginning | None:
     """The start that is given, or else the first one proposed, with which there is a scene.
 
@@ -76,30 +100,21 @@ def beginning(contents: Contents, again: Callable[[Place], Contents]) -> Beginni
 def starts(contents: Contents) -> Iterator[Place]:
     """Roomy places, of which those come first where most loops are obstacles; not verified."""
     wall = () if contents.wall is None else (contents.wall,)
-    sketch = Sketch([*contents.loops, *wall])
+    sketch = Sketch.of([*contents.loops, *wall])
     if sketch.is_empty:
         if contents.startless == "":
             yield fmpq(0), fmpq(0)
         return
-    box = sketch.main_box
-    size = float(max(box[1] - box[0])) or 1.0
-    low, high = box[0] - BEYOND * size, box[1] + BEYOND * size
-    side = int(np.clip(np.sqrt(WORK / 2 / len(sketch.starts)), FEWEST, MOST))
-    places, step = _grid(low, high, side)
-    around, room = sketch.around(places), _room(sketch, places)
-    groups: defaultdict[bytes, list[int]] = defaultdict(list)
-    for i, row in enumerate(np.packbits(around, axis=1)):
-        groups[row.tobytes()].append(i)
+    grid = once(("grid", sketch), lambda: _surveyed(sketch))
     ranked: list[tuple[int, float, int]] = []
-    for members in groups.values():
-        best = max(members, key=lambda i: room[i])
-        score = _obstacles(contents, sketch, around[best])
+    for k, region in enumerate(grid.regions):
+        score = _obstacles(contents, sketch, region.around)
         if score is not None:
             # Within loops rather than beyond, but not within the walls of a plan, if it has rooms.
-            ranked.append((score, float(room[best]) * (WITHIN if around[best].any() else 1), best))
-    for *_, best in sorted(ranked, reverse=True)[:REGIONS]:
-        place, room_there = _roomier(sketch, places[best], around[best], step)
-        if room_there > NO_ROOM * size:
+            ranked.append((score, region.room * (WITHIN if region.around.any() else 1), k))
+    for *_, k in sorted(ranked, reverse=True)[:REGIONS]:
+        place, room_there = grid.roomiest(sketch, k)
+        if room_there > NO_ROOM * grid.size:
             yield rounded(place, room_there)
 
 
@@ -142,7 +157,7 @@ def widest_gap(scene: Scene) -> float:
     Without obstacles it is 1.
     """
     assert scene.start is not None, "a gap is asked for scenes with a start"
-    sketch = Sketch([*scene.shapes, *([] if scene.enclosure is None else [scene.enclosure])])
+    sketch = Sketch.of([*scene.shapes, *([] if scene.enclosure is None else [scene.enclosure])])
     if sketch.is_empty:
         return 1.0
     if sketch.count > 2 * POINTS:
@@ -187,6 +202,20 @@ def _tree(points: Floats, owners: Whole, start: Floats) -> float:
         for point in points[joined]:
             nearest[others] = np.minimum(nearest[others], np.hypot(*(points[others] - point).T))
     return widest or 1.0
+
+
+def _surveyed(sketch: Sketch) -> _SurveyedGrid:
+    """The regions of a grid that reaches a little beyond everything."""
+    low, high = sketch.main_box
+    size = float(max(high - low)) or 1.0
+    side = int(np.clip(np.sqrt(WORK / 2 / len(sketch.starts)), FEWEST, MOST))
+    places, step = _grid(low - BEYOND * size, high + BEYOND * size, side)
+    around, room = sketch.around(places), _room(sketch, places)
+    groups: defaultdict[bytes, list[int]] = defaultdict(list)
+    for i, row in enumerate(np.packbits(around, axis=1)):
+        groups[row.tobytes()].append(i)
+    best = sorted(max(members, key=lambda i: room[i]) for members in groups.values())
+    return _SurveyedGrid([_Region(places[i], around[i], float(room[i])) for i in best], step, size)
 
 
 def _obstacles(contents: Contents, sketch: Sketch, around: Bools) -> int | None:
