@@ -166,6 +166,13 @@ def test_arcs_turn_the_way_they_are_drawn(tmp_path: Path) -> None:
     )
 
 
+def test_a_path_that_is_closed_where_it_began_needs_no_repair(tmp_path: Path) -> None:
+    """Programs draw the last edge and close, too; an edge without length was told as taken out."""
+    content = '<path d="M0 0h9v9L0 0zM20 0a5 5 0 0 1 10 0a5 5 0 0 1-10 0z"/><path d="M40 0q9 0 9 9L40 0z"/>'
+    scene = read(tmp_path, content, flatten="1/100")
+    assert len(scene.obstacles) == 3 and not any("took out" in text for text in scene.notes)
+
+
 def test_layers_are_groups_and_elements(tmp_path: Path) -> None:
     content = """<g id="walls"><rect id="a" width="4" height="3"/></g>
     <g inkscape:label="Holes"><g><circle cx="20" r="1"/></g></g><circle cx="30" r="1"/>"""

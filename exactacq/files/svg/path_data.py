@@ -49,6 +49,13 @@ class Subpath:
     curves: dict[int, DrawnCurve] = field(default_factory=dict)
     """The edges that are no arcs, by the numbers of their corners."""
 
+    def close(self) -> None:
+        """An edge to the first corner, but none of no length: programs draw the last edge and close, too."""
+        self.closed = True
+        first, last = self.corners[0], self.corners[-1]
+        if len(self.corners) > 2 and (first.x, first.y) == (last.x, last.y):
+            self.corners.pop()
+
     def line(self, end: Pair) -> None:
         """A straight edge to a point."""
         self.corners.append(Corner(*end, fmpq(0)))
@@ -120,7 +127,7 @@ class _PathReader:
             raise FormatError(f"a path of more than {MAX_EDGES} edges; export only the part that matters")
         x, y = self.here if relative else (fmpq(0), fmpq(0))
         if kind == "Z":
-            self.found[-1].closed = True
+            self.found[-1].close()
             self.here = self.first
             self.found.append(Subpath([Corner(*self.first, fmpq(0))]))
             return
