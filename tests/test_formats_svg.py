@@ -369,10 +369,12 @@ def test_what_is_done_and_not_done_is_told(tmp_path: Path) -> None:
         "<g clip-path='url(#c)' style='mask: url(#m)'><rect id='a' width='4' height='3'/></g>"
         "<use href='#a' x='9'/>"
         "<use href='other.svg#b'/><image/>"
+        "<path style='transform: rotate(9deg)' transform='scale(2)' d='M0 9h1v1z'/>"
     )
     used, left = read(tmp_path, content).notes
     assert set(left.removeprefix("left out ").split(", ")) == {
         "1 style", "1 clip-path", "1 mask", "1 use of what the file does not have", "1 image",
+        "1 transform in a style",
     }  # fmt: skip
     assert used == "drew 1 element by use"
 

@@ -140,6 +140,9 @@ class _SvgReader:
             self.drawing.dropped["border of a terrain"] += 1
             return None
         self.drawing.dropped.update(w for w in CUTS if element.style(w) not in ("", "none"))
+        moved = element.attributes.get("transform", "")
+        if element.style("transform") not in (moved.strip(), "none"):
+            self.drawing.dropped["transform in a style"] += 1
         names = (element.attributes.get(key) for key in ("inkscape:label", "id"))
         layers = outer.layers + tuple(name for name in names if name)
         visible = {"visible": True, "hidden": False, "collapse": False}.get(element.style("visibility"))
@@ -150,7 +153,7 @@ class _SvgReader:
             depth=outer.depth + 1,
         )
         with about(one_line(f"{element.kind} {element.attributes.get('id', '')}")):
-            matrix = outer.matrix.after(transform(element.attributes.get("transform", "")))
+            matrix = outer.matrix.after(transform(moved))
             if element.kind == "use":
                 x, y = (length(element.attributes, key, outer.box) for key in ("x", "y"))
                 matrix = matrix.after(Matrix(e=x, f=y))
