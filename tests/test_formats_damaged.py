@@ -125,6 +125,33 @@ def test_values_that_a_dtd_gives_to_all_elements_are_not_taken() -> None:
     assert len(root.parts) == 1000 and memory < 10_000_000
 
 
+SHAPE = '<path d="M0 0h9v9z"/>'
+USE = '<use href="#a"/>'
+LONG = 10_000
+
+
+@pytest.mark.parametrize(
+    ("body", "told"),
+    [
+        (f'<g id="a">{1000 * "<text/>"}</g>{1000 * USE}', "more than 400000 elements are drawn"),
+        (f'<g id="a" name="{LONG * "a"}"/>{7000 * USE}', "more than 67108864 characters of elements"),
+        (f'<rect width="{5 * LONG * "1"}!" height="1"/>', "width: a number"),
+        (f'<path id="a" d="{LONG * "M0 0"}"/>{1000 * USE}', ""),
+        (f'<g id="a" style="{LONG * "a:b;"}"/>{1500 * USE}', ""),
+    ],
+    ids=["texts", "names", "digits", "paths", "styles"],
+)
+def test_what_is_used_again_and_again_in_a_drawing(tmp_path: Path, body: str, told: str) -> None:
+    """What shows nothing did not count, and paths and styles were read once more for each use."""
+    path = put(KINDS["svg"], tmp_path, f"<svg>{body}{SHAPE}</svg>".encode())
+    begun = time.process_time()
+    try:
+        assert len(xa.load(path, start=(-1, -1)).obstacles) == 1 and not told
+    except xa.FormatError as error:
+        assert told and told in str(error)
+    assert time.process_time() - begun < SECONDS
+
+
 # -- what thousands of each format found --------------------------------------------------------------
 
 

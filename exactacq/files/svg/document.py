@@ -13,6 +13,8 @@ MAX_ELEMENTS = 2 * MAX_EDGES
 """Most elements of a file, and most that are drawn where some are used again: each takes microseconds."""
 MAX_DEPTH = 64
 """Deepest nesting of elements that is followed."""
+PROPERTIES = ("display", "visibility", "clip-path", "mask", "transform")
+"""What is asked of styles."""
 
 
 @dataclass(slots=True)
@@ -23,14 +25,19 @@ class Element:
     attributes: dict[str, str]
     line: int
     parts: list[Element] = field(default_factory=list)
+    styled: dict[str, str] = field(init=False)
+    """What the style attribute says of the `PROPERTIES`."""
+
+    def __post_init__(self) -> None:
+        rules = (rule.partition(":") for rule in self.attributes.get("style", "").split(";"))
+        named = ((key.strip(), value) for key, _, value in rules)
+        self.styled = {
+            name: value.replace("!important", "").strip() for name, value in named if name in PROPERTIES
+        }
 
     def style(self, name: str) -> str:
-        """The value of a property, from the style attribute or an attribute of its own; empty if not said."""
-        for rule in reversed(self.attributes.get("style", "").split(";")):
-            key, _, value = rule.partition(":")
-            if key.strip() == name:
-                return value.replace("!important", "").strip()
-        return self.attributes.get(name, "").strip()
+        """The value of one of the `PROPERTIES`, from the style or an attribute of its own; "" if not said."""
+        return self.styled.get(name, self.attributes.get(name, "").strip())
 
 
 def parse(data: bytes) -> Element:

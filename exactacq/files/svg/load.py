@@ -24,7 +24,7 @@ from exactacq.files.loops.contents import Contents
 from exactacq.files.loops.drawing import Drawing, LayerChoice
 from exactacq.files.loops.rational_arcs import arc_around
 from exactacq.files.repairs.flattened import BY_ARCS, CurvesRefused, Flattening
-from exactacq.files.source import MAX_EDGES, check_edges, one_line, read_bytes
+from exactacq.files.source import MAX_BYTES, MAX_EDGES, check_edges, one_line, read_bytes
 from exactacq.files.svg.document import MAX_DEPTH, MAX_ELEMENTS, Element, named, parse
 from exactacq.files.svg.path_data import DrawnCurve, Subpath, oval_arc, subpaths
 from exactacq.files.svg.transforms import ZERO, Matrix, numbers, transform
@@ -38,6 +38,8 @@ LEFT_OUT = ("image", "text", "foreignObject", "style")
 """What is left out and counted; other elements, such as definitions, show nothing by themselves."""
 TERRAIN = "terrain"
 """The ``data-kind`` of the border of a terrain, as `exactacq.files.writing.svg` draws it: it is no wall."""
+MAX_TEXT = MAX_BYTES
+"""Most characters of attributes that are drawn: no file has more if none of its elements is used again."""
 CUTS = ("clip-path", "mask")
 """What hides parts of elements, which are read whole."""
 Pair = tuple[fmpq, fmpq]
@@ -92,7 +94,8 @@ class _SvgReader:
     def __init__(self, choice: LayerChoice, flattening: Flattening | None) -> None:
         self.drawing, self.choice, self.flattening = Drawing(), choice, flattening
         self.named: dict[str, Element] = {}
-        self.order = self.edges = self.drawn = self.reused = 0
+        self.paths: dict[str, list[Subpath]] = {}
+        self.order = self.edges = self.drawn = self.text = self.reused = 0
         self.error = fmpq(0)
 
     def read(self, root: Element) -> None:
@@ -106,16 +109,14 @@ class _SvgReader:
     def _draw(self, element: Element, outer: _DrawnIn, size: dict[str, str] | None = None) -> None:
         """What an element shows in a frame; a ``use`` draws it with the *size* that it tells."""
         kind = element.kind
+        self._count(element)
         if kind in LEFT_OUT or kind not in (*GROUPS, *SHAPES, "svg", "use", "symbol"):
             if kind in LEFT_OUT:
                 self.drawing.dropped[kind] += 1
             return
         if kind == "symbol" and size is None:
             return
-        self.drawn += 1
         with about(f"line {element.line}"):
-            if self.drawn > MAX_ELEMENTS:
-                raise FormatError(f"more than {MAX_ELEMENTS} elements are drawn; export only one part")
             if outer.depth > MAX_DEPTH:
                 raise FormatError(
                     f"uses are nested more than {MAX_DEPTH} deep (one in itself?); break them up"
@@ -130,6 +131,19 @@ class _SvgReader:
             return
         for part in element.parts:
             self._draw(part, frame)
+
+    def _count(self, element: Element) -> None:
+        """`FormatError` if uses make too much of a file, of its elements or of their long attributes."""
+        self.drawn += 1
+        self.text += sum(map(len, element.attributes.values()))
+        for number, most, what in (
+            (self.drawn, MAX_ELEMENTS, "elements"),
+            (self.text, MAX_TEXT, "characters of elements"),
+        ):
+            if number > most:
+                raise FormatError(
+                    f"line {element.line}: more than {most} {what} are drawn; export only one part"
+                )
 
     def _framed(self, element: Element, outer: _DrawnIn, size: dict[str, str]) -> _DrawnIn | None:
         """The frame of what is in an element, or of the element if it is a shape; None if it is not shown."""
@@ -194,7 +208,10 @@ class _SvgReader:
             return
         self.error, matrix = max(self.error, frame.matrix.error), frame.matrix
         if kind == "path":
-            found = subpaths(attributes.get("d", ""), curved=self.flattening is not None)
+            data = attributes.get("d", "")
+            if data not in self.paths:
+                self.paths[data] = subpaths(data, curved=self.flattening is not None)
+            found = self.paths[data]
         elif kind in ("circle", "ellipse"):
             self._circle(kind, attributes, frame, label)
             return

@@ -15,7 +15,8 @@ from exactacq.files.loops.rational_arcs import rational_turn
 from exactacq.files.source import MAX_EDGES, one_line
 from exactacq.numbers.rationals import MAX_DIGITS, rational
 
-NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+NUMBER = r"[-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?"
+"""Its digits are not given back, else a long number before what is none took quadratic time."""
 ZERO, ONE = fmpq(0), fmpq(1)
 MAX_TRANSFORMS = 64
 """Most transforms in one attribute."""

@@ -17,7 +17,7 @@ UNITS = {
     "pt": fmpq(4, 3), "pc": fmpq(16), "q": fmpq(120, 127),
 }  # fmt: skip
 """Units in pixels, as CSS has them: 96 to the inch."""
-_LENGTH = re.compile(rf"\s*({NUMBER})\s*([A-Za-z]*|%)\s*", re.ASCII)
+_LENGTH = re.compile(rf"\s*({NUMBER})\s*+([A-Za-z]*|%)\s*", re.ASCII)
 Box = tuple[fmpq, fmpq]
 """Width and height of the viewport that percentages refer to."""
 
