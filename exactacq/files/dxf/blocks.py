@@ -85,10 +85,11 @@ def shown(layout: Iterable[Any], drawing: Drawing, unseen: Unseen) -> Iterator[t
                 drawing.dropped["INSERT of a missing block"] += 1
                 continue
             expanded += entity.mcount
-            # What shows nothing takes its time too, and so does an empty block.
-            placed += entity.mcount * max(1, len(block))
+            placed += entity.mcount * _weight(block)
             if placed > MAX_ENTITIES:
-                raise FormatError(f"its blocks expand to more than {MAX_ENTITIES} entities; export one part")
+                raise FormatError(
+                    f"its blocks expand to more than {MAX_ENTITIES} entities and vertices; export one part"
+                )
             stack.append(_BlockLevel(_content(entity, block, matrix), layer, level.depth + 1, is_hidden))
         elif matrix is None or kind not in READ:
             yield entity, layer, is_hidden
@@ -102,6 +103,19 @@ def shown(layout: Iterable[Any], drawing: Drawing, unseen: Unseen) -> Iterator[t
             drawing.notes.append(
                 f"expanded {count(number, what)}; their content is placed in double precision"
             )
+
+
+def _weight(block: Iterable[Any]) -> int:
+    """How many entities and vertices it takes to place a block: what shows nothing takes its time, too."""
+    return 1 + sum(1 + _vertices(entity) for entity in block)
+
+
+def _vertices(entity: Any) -> int:
+    """How many vertices an entity of many has."""
+    kind = entity.dxftype()
+    if kind in ("LWPOLYLINE", "POLYLINE"):
+        return len(entity)
+    return len(entity.vertices if kind == "MLINE" else entity.control_points if kind == "SPLINE" else ())
 
 
 def _content(

@@ -64,7 +64,9 @@ def read_drawing(path: Path, layers: Iterable[str] | None, flattening: Flattenin
         for entity, layer, is_hidden in shown(document.modelspace(), drawing, Unseen(document)):
             order += 1
             if order > MAX_ENTITIES:
-                raise FormatError(f"its blocks expand to more than {MAX_ENTITIES} entities; export one part")
+                raise FormatError(
+                    f"its blocks expand to more than {MAX_ENTITIES} entities and vertices; export one part"
+                )
             if is_hidden and selected.names is None:
                 drawing.dropped[f"hidden {entity.dxftype()}"] += 1
                 hidden.setdefault(layer)
