@@ -50,7 +50,8 @@ def work(way: str, name: str, first: int, end: int) -> None:
                 read(name, path, options)
                 outcome = "read"
             except xa.ExactacqError as error:
-                outcome, told = type(error).__name__, str(error)
+                is_refused, told = isinstance(error, xa.FormatError), str(error)
+                outcome = "FormatError" if is_refused else type(error).__name__
                 long = len(told) > LONGEST and outcome == "FormatError"
                 if "\n" in told or not told.strip() or long:
                     outcome = "FLAW of the message"
