@@ -14,7 +14,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from hostile_files import LAUGHS, OUTSIDE, Kind, hostile, kinds, put, read
+from hostile_files import LAUGHS, OUTSIDE, Kind, dxf_of, hostile, kinds, put, read
 from hostile_structures import STRUCTURES, structured
 from hostile_trees import text
 from nightly import NIGHTLY
@@ -279,3 +279,11 @@ def test_a_drawing_without_entities_and_with_damaged_layouts(tmp_path: Path) -> 
     path = put(KINDS["dxf"], tmp_path, data[:16405] + 3 * data[14291:16405] + data[16405:])
     with pytest.raises(xa.FormatError, match="a damaged entity"):
         xa.load(path, start=(0, 0))
+
+
+def test_a_text_with_a_line_separator_of_unicode_in_a_drawing_without_a_header(tmp_path: Path) -> None:
+    """Its line was taken apart there, so that the file counted as damaged."""
+    text = ("TEXT", 10, 0.0, 20, 0.0, 40, 1.0, 1, "one\u2028two")
+    path = put(KINDS["dxf"], tmp_path, dxf_of(text, ("CIRCLE", 10, 0.0, 20, 0.0, 40, 1.0)))
+    scene = xa.load(path, start=(5, 5))
+    assert len(scene.obstacles) == 1 and "damaged" not in " ".join(scene.notes)

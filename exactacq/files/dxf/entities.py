@@ -166,7 +166,8 @@ def _bare(path: Path) -> Any:
     version = "AC1009" if is_old else "AC1015"
     data, named = _VERSION.subn(rb"\g<1>" + version.encode(), data, count=1)
     header = "" if named else f"0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\n{version}\n0\nENDSEC\n"
-    lines = data.decode("utf-8-sig", errors="surrogateescape").splitlines()
+    text = data.decode("utf-8-sig", errors="surrogateescape")
+    lines = [line.rstrip("\n") for line in StringIO(text, newline=None)]  # other separators stand in texts
     return ezdxf.read(StringIO(header + "\n".join(_heavy(lines) if is_old else lines) + "\n"))
 
 
