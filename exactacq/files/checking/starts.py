@@ -61,7 +61,7 @@ class Beginning:
 
 
 @dataclass(frozen=True, slots=True)
-class _Region:
+class _RoomyPlace:
     """A place of a grid, the roomiest one of those that have the same loops around them."""
 
     place: Floats
@@ -73,7 +73,7 @@ class _Region:
 class _SurveyedGrid:
     """The regions of a grid in the order of their places, the steps of the grid, the size of everything."""
 
-    regions: list[_Region]
+    regions: list[_RoomyPlace]
     step: Floats
     size: float
 
@@ -215,7 +215,7 @@ def _surveyed(sketch: Sketch) -> _SurveyedGrid:
     for i, row in enumerate(np.packbits(around, axis=1)):
         groups[row.tobytes()].append(i)
     best = sorted(max(members, key=lambda i: room[i]) for members in groups.values())
-    return _SurveyedGrid([_Region(places[i], around[i], float(room[i])) for i in best], step, size)
+    return _SurveyedGrid([_RoomyPlace(places[i], around[i], float(room[i])) for i in best], step, size)
 
 
 def _obstacles(contents: Contents, sketch: Sketch, around: Bools) -> int | None:
