@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from itertools import product
 
 from flint import fmpq
 from networkx.utils import UnionFind
@@ -153,9 +154,7 @@ def _merge_corners(kept: Corner, corner: Corner, done: Stitched) -> None:
 def _join_ends(pieces: list[Chain], tolerance: fmpq, done: Stitched) -> dict[tuple[int, int], int]:
     """Cluster the ends and move each onto its cluster's first stated end; the cluster of (id, side)."""
     ends = [(piece, side, piece.corners[-side]) for piece in pieces for side in (0, 1)]
-    near = UnionFind(range(len(ends)))
-    for pair in _close_pairs([corner for _, _, corner in ends], tolerance):
-        near.union(*pair)
+    near = _near([corner for _, _, corner in ends], tolerance)
     clusters: defaultdict[int, list[int]] = defaultdict(list)
     for i in range(len(ends)):
         clusters[near[i]].append(i)
@@ -174,25 +173,37 @@ def _collapsed(piece: Chain, done: Stitched) -> bool:
     return gone
 
 
-def _close_pairs(corners: list[Corner], tolerance: fmpq) -> Iterable[tuple[int, int]]:
-    """Pairs of indices of corners at most the tolerance apart; equal corners are linked in a row."""
+def _near(corners: list[Corner], tolerance: fmpq) -> UnionFind:
+    """The indices of corners in clusters: each is at most the tolerance from another one of its cluster.
+
+    Corners lie in cells as wide as the tolerance, and there in quarters. Those of one quarter are near each
+    other, so a quarter in a cluster is not looked into again: however many corners it has, that is linear.
+    """
+    near = UnionFind(range(len(corners)))
     first: dict[tuple[fmpq, fmpq], int] = {}
-    cells: defaultdict[tuple[int, int], list[int]] = defaultdict(list)
+    cells: defaultdict[tuple[int, int], defaultdict[tuple[int, int], list[int]]]
+    cells = defaultdict(lambda: defaultdict(list))
     for i, corner in enumerate(corners):
         j = first.setdefault((corner.x, corner.y), i)
         if j != i:
-            yield j, i
+            near.union(j, i)
             continue
         if not tolerance:
             continue
-        column, row = (int((c / tolerance).floor()) for c in (corner.x, corner.y))
-        for dx in (-1, 0, 1):
-            for dy in (-1, 0, 1):
-                for k in cells.get((column + dx, row + dy), ()):
-                    other = corners[k]
-                    if (other.x - corner.x) ** 2 + (other.y - corner.y) ** 2 <= tolerance**2:
-                        yield k, i
-        cells[column, row].append(i)
+        quarter = int((2 * corner.x / tolerance).floor()), int((2 * corner.y / tolerance).floor())
+        column, row = quarter[0] // 2, quarter[1] // 2
+        for dx, dy in product((-1, 0, 1), repeat=2):
+            for members in cells.get((column + dx, row + dy), {}).values():
+                if near[members[0]] != near[i] and any(
+                    _is_within(corners[k], corner, tolerance) for k in members
+                ):
+                    near.union(members[0], i)
+        cells[column, row][quarter].append(i)
+    return near
+
+
+def _is_within(a: Corner, b: Corner, tolerance: fmpq) -> bool:
+    return bool((a.x - b.x) ** 2 + (a.y - b.y) ** 2 <= tolerance**2)
 
 
 def _trace(
