@@ -71,16 +71,16 @@ class _RoomyPlace:
 
 @dataclass(frozen=True, slots=True)
 class _SurveyedGrid:
-    """The regions of a grid in the order of their places, the steps of the grid, the size of everything."""
+    """The roomy places of a grid in its order, its steps, and the size of everything."""
 
-    regions: list[_RoomyPlace]
+    roomy: list[_RoomyPlace]
     step: Floats
     size: float
 
     def roomiest(self, sketch: Sketch, k: int) -> tuple[Floats, float]:
-        """The roomiest place near that of a region, and its room."""
-        region = self.regions[k]
-        return once(("roomiest", sketch, k), lambda: _roomier(sketch, region.place, region.around, self.step))
+        """The roomiest place near one of them, and its room."""
+        near = self.roomy[k]
+        return once(("roomiest", sketch, k), lambda: _roomier(sketch, near.place, near.around, self.step))
 
 
 def beginning(contents: Contents, again: Callable[[Place], Contents]) -> Beginning | None:
@@ -107,11 +107,11 @@ def starts(contents: Contents) -> Iterator[Place]:
         return
     grid = once(("grid", sketch), lambda: _surveyed(sketch))
     ranked: list[tuple[int, float, int]] = []
-    for k, region in enumerate(grid.regions):
-        score = _obstacles(contents, sketch, region.around)
+    for k, roomy in enumerate(grid.roomy):
+        score = _obstacles(contents, sketch, roomy.around)
         if score is not None:
             # Within loops rather than beyond, but not within the walls of a plan, if it has rooms.
-            ranked.append((score, region.room * (WITHIN if region.around.any() else 1), k))
+            ranked.append((score, roomy.room * (WITHIN if roomy.around.any() else 1), k))
     for *_, k in sorted(ranked, reverse=True)[:REGIONS]:
         place, room_there = grid.roomiest(sketch, k)
         if room_there > NO_ROOM * grid.size:
@@ -205,7 +205,7 @@ def _tree(points: Floats, owners: Whole, start: Floats) -> float:
 
 
 def _surveyed(sketch: Sketch) -> _SurveyedGrid:
-    """The regions of a grid that reaches a little beyond everything."""
+    """A grid that reaches a little beyond everything."""
     low, high = sketch.main_box
     size = float(max(high - low)) or 1.0
     side = int(np.clip(np.sqrt(WORK / 2 / len(sketch.starts)), FEWEST, MOST))
