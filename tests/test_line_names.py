@@ -24,6 +24,7 @@ from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.sensing.way_cuts import WayCuts
 from exactacq.visibility.features import features
 from exactacq.visibility.line_names import Namer, Names
+from exactacq.visibility.place_facts import numbers_of_way
 from exactacq.visibility.sensor_range import Range
 
 BITS = 256
@@ -178,24 +179,44 @@ def test_arcs_of_the_own_circle_give_no_names() -> None:
     assert Namer(table).names(tangents, sector, Real(sector.high), passed) == ((key, 1),)
 
 
-def test_only_two_corners_tell_that_a_line_is_the_ways_own() -> None:
+def test_the_numbers_of_a_way_tell_which_lines_are_its_own() -> None:
     """A line through a corner and beside a circle that the way touches may be the other tangent."""
     shapes = [
         xa.Polygon([(2, 0), (1, -1), (3, -1)]),
         xa.Polygon([(5, 0), (6, 1), (4, 1)]),
         xa.Circle((9, -1), 1),
+        xa.Circle((13, 2), 2),
     ]
-    sweeper = sweeper_of(xa.Scene(shapes), 12)
+    sweeper = sweeper_of(xa.Scene(shapes), 15)
     table, own = sweeper.table, (Point(0, 0), Point(1, 0))
     # The way is cut at the corners that it passes; all its legs know what its line touches.
-    leg = legs_of(table, [], None, Segment(Point(0, 0), Point(11, 0)))[0]
+    leg = legs_of(table, [], None, Segment(Point(0, 0), Point(14, 0)))[0]
     cuts = WayCuts(StraightWay(VisibilityComplex(table, sweeper.range), leg))
-    found: set[tuple[bool, bool]] = set()
+    found: set[tuple[int, bool]] = set()
     for _, line, names, _ in named_lines(sweeper):
         pairs = [table.line_numbers.features(key) for key, _ in names]
         touched = [pair for pair in pairs if {*pair} <= {*leg.touches}]
         if touched:
-            corners, is_own = any(max(pair) < len(table.curves) for pair in touched), same(line, own)
-            assert cuts._is_along(names) == corners <= is_own
-            found.add((corners, is_own))
-    assert found >= {(True, True), (False, False)}
+            is_own = same(line, own)
+            assert cuts._is_along(names) == is_own
+            found |= {(sum(map(table.line_numbers.is_circle, pair)), is_own) for pair in touched}
+    assert found == {(0, True), (1, True), (1, False), (2, True), (2, False)}
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_way_finds_the_numbers_that_families_find(seed: int) -> None:
+    """Of the line of two points, by what it touches: those of its families, and no other line's."""
+    sweeper = random_sweeper(seed)
+    table, numbers = sweeper.table, sweeper.table.line_numbers
+    lines = [(line, [key for key, _ in names]) for _, line, names, _ in named_lines(sweeper) if names]
+    known = {key: line for line, keys in lines for key in keys}
+    for line, keys in Random(seed).sample(lines, min(len(lines), 60)):
+        features = {feature for key in keys for feature in numbers.features(key)}
+        round_ = {key for key in keys if any(map(numbers.is_circle, numbers.features(key)))}
+        (contact, along), shift = line, Random(seed).uniform(-5, 5)
+        places = contact + along * fmpq(*shift.as_integer_ratio()), contact + along * 7
+        for ends in (places, places[::-1]):
+            found = {*numbers_of_way(table, ends, features)}
+            touching = {key for key in round_ if touch_each_other(table, numbers.features(key))}
+            assert round_ - touching <= found
+            assert all(same(line, known[key]) for key in found if key in known)

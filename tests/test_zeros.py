@@ -357,6 +357,29 @@ def test_zeros_of_any_function() -> None:
         assert (third / 3).ball(1000).overlaps(arb.pi())
 
 
+class AtRational(Sine):
+    """sin(pi t), whose value at a number nobody can tell from 0."""
+
+    key = "at rational"
+
+    def __call__(self, t: object) -> object:
+        assert not isinstance(t, Real), "a proof that takes for ever"
+        return (arb.pi() * t).sin()
+
+
+def test_an_end_that_is_a_zero_is_asked_the_easy_way_where_a_cell_ends_there() -> None:
+    """A view along the range's edge ended where a robot halted: it was asked of its numbers."""
+    asked: list[Real] = []
+
+    def sign_at(t: Real) -> int:
+        asked.append(t)
+        return 0
+
+    high = Real(1)
+    assert zeros_between(AtRational(), Real(fmpq(1, 2)), high, sign_at) == []
+    assert all(t is high for t in asked) and asked
+
+
 class Vague(Sine):
     """sin(t), with values that are no better known however many bits there are once its zeros are found."""
 
