@@ -12,8 +12,6 @@ from math import ceil, sqrt
 from operator import attrgetter
 from typing import Final, cast, final
 
-from mypy_extensions import mypyc_attr
-
 from exactacq.kernel.bounded import UNIT
 from exactacq.kernel.lines import Line
 
@@ -25,7 +23,6 @@ Box = tuple[float, float, float, float]
 """(x0, y0, x1, y1)."""
 
 
-@mypyc_attr(acyclic=True)
 @final
 class BoxNode:
     """A box with its number, or the box around a group: its number is that of a run's first box, else -1."""

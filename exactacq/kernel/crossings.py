@@ -10,8 +10,6 @@ from __future__ import annotations
 from math import inf
 from typing import Final, final
 
-from mypy_extensions import mypyc_attr
-
 from exactacq.kernel.bounded import TINY, UNIT, WIDEN, cross, product, quotient, root, total, verdict
 from exactacq.kernel.images import CONCAVE, ROLLING, SLIDING, STRAIGHT
 from exactacq.kernel.surroundings import LEFT_OUT, THROUGH, FrameLine, FramePoint, Surroundings
@@ -20,7 +18,6 @@ VAGUE: Final = 4
 """Whether an edge is crossed is open."""
 
 
-@mypyc_attr(acyclic=True)
 @final
 class EdgeLine:
     """The line of an edge's ends in the frame: the vector between them, and the first end times it."""

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from typing import final
 
-from mypy_extensions import mypyc_attr
 
-
-@mypyc_attr(acyclic=True)
 @final
 class CurveImage:
     """A boundary edge, or a straight way, in floats: each the nearest one, off by 2^-53 of itself.

@@ -9,8 +9,6 @@ from __future__ import annotations
 from math import inf
 from typing import Final, final
 
-from mypy_extensions import mypyc_attr
-
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.images import ROLLING, SLIDING, EdgeImage
 from exactacq.kernel.lines import Frame, Line, line_at, meets, parameter_round, side_of
@@ -35,7 +33,6 @@ ANYWHERE: EdgePlace = (-inf, inf, 0.0, 0.0, inf)
 UNDIVIDED: Final[Divided] = {}
 
 
-@mypyc_attr(acyclic=True)
 @final
 class EndLine:
     """The first or the last line of a family, in floats: its parameter, held with a bound.

@@ -9,8 +9,6 @@ from __future__ import annotations
 from math import inf
 from typing import Final, final
 
-from mypy_extensions import mypyc_attr
-
 from exactacq.kernel.bound_lines import Passed
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import EVERYTHING, Span
@@ -25,7 +23,6 @@ OPEN: Final = -1
 """Whether a line may be pinched."""
 
 
-@mypyc_attr(acyclic=True)
 @final
 class MetEdge:
     """An edge that a line meets: at which ``vertex`` (or how, if negative), in which ``place``, and where.

@@ -12,8 +12,6 @@ from __future__ import annotations
 
 from typing import Final, final
 
-from mypy_extensions import mypyc_attr
-
 STRAIGHT: Final = 0
 CONVEX: Final = 1
 CONCAVE: Final = -1
@@ -29,7 +27,6 @@ Held = tuple[float, float, float, float]
 """A point: x and what it leaves, y and what it leaves."""
 
 
-@mypyc_attr(acyclic=True)
 @final
 class EdgeImage:
     """An edge of a scene with the vertex at which it begins, of the same number; it ends at ``following``.
@@ -51,7 +48,6 @@ class EdgeImage:
         return self.x, self.x_rest, self.y, self.y_rest
 
 
-@mypyc_attr(acyclic=True)
 @final
 class LineFrame:
     """A family of lines (see `exactacq.visibility.line_families`), by the float images of its data.

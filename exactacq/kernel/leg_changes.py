@@ -10,8 +10,6 @@ from __future__ import annotations
 from math import inf
 from typing import Final, final
 
-from mypy_extensions import mypyc_attr
-
 from exactacq.kernel.bounded import TINY, UNIT, cross, length, product, total
 from exactacq.kernel.curve_images import CurveImage
 from exactacq.kernel.extents import Extent, Span, extent, views_in_range
@@ -44,7 +42,6 @@ AFTER: Span = (inf, inf)
 """Of one that is its end or lies behind it."""
 
 
-@mypyc_attr(acyclic=True)
 @final
 class Sight:
     """An interval of a leg from which edge ``edge`` is seen along the lines of a family.

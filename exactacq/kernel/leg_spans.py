@@ -6,15 +6,12 @@ from collections.abc import Mapping, Sequence
 from math import inf
 from typing import final
 
-from mypy_extensions import mypyc_attr
-
 from exactacq.kernel.extents import NOTHING, Span
 
 Known = Mapping[int, Sequence[Span]]
 """What is known of edges, by their numbers, rounded inward."""
 
 
-@mypyc_attr(acyclic=True)
 @final
 class LegSpan:
     """A leg, by bounds of the parameters of both its ends; the robot walks it *ahead* or back."""

@@ -10,8 +10,6 @@ from __future__ import annotations
 from math import inf, sqrt
 from typing import Final, final
 
-from mypy_extensions import mypyc_attr
-
 from exactacq.kernel.bound_lines import NOTHING
 from exactacq.kernel.bounded import (
     UNIT,
@@ -43,7 +41,6 @@ RIGHT: Final = 3
 """Where an edge leaves from a vertex on the line: along it, or to a side; in the order of turning left."""
 
 
-@mypyc_attr(acyclic=True)
 @final
 class GrazedPlace:
     """Where a line meets edges: from ``low`` to ``high`` along it, in lengths; at which vertex, or how."""

@@ -22,8 +22,6 @@ from __future__ import annotations
 from math import inf, sqrt
 from typing import Final, final
 
-from mypy_extensions import mypyc_attr
-
 from exactacq.kernel.bounded import TINY, UNIT
 from exactacq.kernel.box_tree import Box
 from exactacq.kernel.curve_images import CurveImage
@@ -37,7 +35,6 @@ two of them by 2 m UNIT, products of such differences with a vector w by 8 m UNI
 half-plane cuts a segment its value is off by twice as much as at the ends, and the place by 16 m UNIT."""
 
 
-@mypyc_attr(acyclic=True)
 @final
 class Front:
     """An edge, the one before it, and the box around their obstacle: the plane if not all of it counts."""
@@ -52,7 +49,6 @@ class Front:
             self.size = max(self.size, _largest(self.left, self.bottom, self.right, self.top))
 
 
-@mypyc_attr(acyclic=True)
 @final
 class SegmentPart:
     """What half-planes leave of a segment from (ax, ay) to (bx, by)."""
@@ -85,7 +81,6 @@ class SegmentPart:
         return not is_near(front, x0, y0, x1, y1, reach[0], slack)
 
 
-@mypyc_attr(acyclic=True)
 @final
 class Beside:
     """The places that only normals of a straight piece of the path show, to both sides of it.

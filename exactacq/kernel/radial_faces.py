@@ -12,8 +12,6 @@ from __future__ import annotations
 
 from typing import Final, final
 
-from mypy_extensions import mypyc_attr
-
 from exactacq.kernel.bounded import (
     TINY,
     UNIT,
@@ -34,7 +32,6 @@ NONE: Final = -1
 """In place of the number of a face's event: it is a full circle around the place."""
 
 
-@mypyc_attr(acyclic=True)
 @final
 class FaceEnd:
     """A direction in which faces end, by the number of the point that lies there.
@@ -54,7 +51,6 @@ class FaceEnd:
         self.after: FaceEnd | None = None
 
 
-@mypyc_attr(acyclic=True)
 @final
 class Face:
     """A face: its edge and both events, None of a full circle around the place.

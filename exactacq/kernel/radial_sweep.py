@@ -13,8 +13,6 @@ from math import inf
 from operator import attrgetter
 from typing import Final, final
 
-from mypy_extensions import mypyc_attr
-
 from exactacq.kernel.bounded import TINY, UNIT, WIDEN, cross
 from exactacq.kernel.lattice import Lattice, place_among
 from exactacq.kernel.radial_faces import Face, FaceEnd, RadialFaces
@@ -34,7 +32,6 @@ Part = tuple[int, int]
 """The numbers of the ends of a closed piece of an edge, in the boundary's direction."""
 
 
-@mypyc_attr(acyclic=True)
 @final
 class FirstFace:
     """A face that comes first from the rank ``low`` to ``high``, counterclockwise; or `NOTHING` or `BLOCKED`.

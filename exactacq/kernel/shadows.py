@@ -11,8 +11,6 @@ from __future__ import annotations
 from math import hypot
 from typing import Final, cast, final
 
-from mypy_extensions import mypyc_attr
-
 from exactacq.kernel.bounded import UNIT
 from exactacq.kernel.box_tree import NUMBER, Box, BoxNode
 from exactacq.kernel.images import CONVEX, STRAIGHT, EdgeImage
@@ -26,7 +24,6 @@ Spot = tuple[float, float]
 """A place in floats."""
 
 
-@mypyc_attr(acyclic=True)
 @final
 class HalfPlane:
     """An open half-plane: a place on its rim, and the normal that points into it, of that size."""
@@ -36,7 +33,6 @@ class HalfPlane:
         self.size = abs(nx) + abs(ny)
 
 
-@mypyc_attr(acyclic=True)
 @final
 class Shadow:
     """What one segment hides: the points that lie in all of some half-planes.
@@ -64,7 +60,6 @@ class Shadow:
         return True
 
 
-@mypyc_attr(acyclic=True)
 @final
 class Shadows:
     """What straight edges and whole discs hide from some places.

@@ -16,8 +16,6 @@ from __future__ import annotations
 from math import sqrt
 from typing import Final, final
 
-from mypy_extensions import mypyc_attr
-
 from exactacq.kernel.bounded import TINY, UNIT, WIDEN, dot, product, root
 from exactacq.kernel.images import REST, ROLLING, SLIDING, SPOKES, STRAIGHT, LineFrame
 from exactacq.kernel.near_edges import NearEdges
@@ -30,7 +28,6 @@ LEFT_OUT: Final = 2
 """and an edge through it that its lines do not meet elsewhere."""
 
 
-@mypyc_attr(acyclic=True)
 @final
 class FramePoint:
     """A vertex or an arc's centre in the frame: (x, y), held with ``bound``, and ``size`` = |x| + |y|."""
@@ -95,7 +92,6 @@ class Surroundings:
         return product(self.scale, self.scale_bound, r, UNIT * r)
 
 
-@mypyc_attr(acyclic=True)
 @final
 class FrameLine:
     """A line of the family in its frame: contact (cx, cy) and direction (dx, dy) with bounds, and what

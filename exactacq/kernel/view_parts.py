@@ -11,8 +11,6 @@ from __future__ import annotations
 from math import inf
 from typing import Any, Final, final
 
-from mypy_extensions import mypyc_attr
-
 from exactacq.kernel.bounded import UNIT, WIDEN, cross, dot, length, product, quotient, root, total
 from exactacq.kernel.images import STRAIGHT
 from exactacq.kernel.radial_faces import Face, FaceEnd
@@ -38,7 +36,6 @@ OWN: Final = -4
 """The place itself, as a part between the pieces next to its own obstacle."""
 
 
-@mypyc_attr(acyclic=True)
 @final
 class OutlinePiece:
     """A piece of the outline: its edge, `RANGE` or `WINDOW`, and both ends, counterclockwise.
