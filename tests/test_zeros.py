@@ -440,3 +440,22 @@ def test_arcs_of_nearly_one_circle_take_few_cells(name: str, monkeypatch: pytest
     monkeypatch.setattr(function_zeros, "_excludes_zero", counted)
     run = xa.explore(xa.load(DATA / f"{name}.json"), "nearest-frontier")
     assert run.map.incomplete == () and 100 < cells < 1000
+
+
+@pytest.mark.parametrize("off", ["1e-15", "2e-15", "-2e-15", "1e-12"])
+def test_a_common_tangent_a_little_longer_than_the_range(off: str) -> None:
+    """By 10^-31, as two circles of a drilling pattern are as far apart but for the last digit of a double.
+
+    Where a line rolls on one of them up to that tangent, its view is as long as the range so near to the end
+    that the square of the difference counts: it was sought down to 2^-106.
+    """
+    scene = xa.Scene([xa.Circle((0, 0), 3), xa.Circle((off, 10), 3)])
+    way = xa.Segment(xa.Point(Real(off) + 3, 10), xa.Point(Real(37).sqrt() + 3, 8))
+    swept = xa.sweep(scene, way, 10)
+    assert len(swept.cells) == len(swept.events) + 1 > 1
+
+
+@pytest.mark.parametrize("strategy", ["nearest-frontier", "sightseer"])
+def test_two_holes_as_far_apart_as_the_range(strategy: str) -> None:
+    holes = [xa.Circle((0, 0), 5), xa.Circle(("17.320508075688775", "9.999999999999998"), 5)]
+    xa.audit(xa.explore(xa.Scene(holes, start=("3.66", "13.66")), strategy, 20))

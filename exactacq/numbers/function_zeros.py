@@ -29,6 +29,8 @@ BITS = 256
 FINENESS = 100
 """A cell of 2^-100 that shows neither a sign nor a slope holds a double zero, or is taken to. In a range of
 width w < 1 cells are searched down to 2^-100 w^3."""
+DEEPEST = 5000
+"""A zero that is known to lie in a cell, beside an end like a root, is sought down to 2^-5000."""
 MOST_CELLS = 50_000
 """Cells of a range that are looked at: some seconds' work. Nearly all searches take a few hundred at most."""
 STALLED_BITS = 1 << 16
@@ -166,7 +168,7 @@ def zeros_between(
         left, right = cells.pop()
         if right < begin or left > end:
             continue
-        looked_at += 1
+        looked_at, limit = looked_at + 1, deepest
         if looked_at > MOST_CELLS:
             raise Undecided(f"{function} is too close to 0 about {float(left):.15g} to tell where it is")
         depth = (right - left).q.bit_length() - 1
@@ -178,14 +180,16 @@ def zeros_between(
                 continue
             is_steady = _is_steady(slope)
             ends = [t for t, is_near in ((low, left <= begin), (high, right >= end)) if is_near]
-            is_at_end = bool(ends) and not slope.is_finite() and _is_monotone(function, cell)
+            # Beside a root at an end the slope is infinite, or so large that no cell bounds it well.
+            is_steep = not is_steady and ((bool(ends) and not slope.is_finite()) or depth > deepest)
+            is_steep = is_steep and _is_monotone(function, cell)
             is_bent = bool(ends) and ball_sign(slope) == 0 and ball_sign(_bend(function, cell)) != 0
         if is_bent and any(
             t.compare(left) >= 0 >= t.compare(right) and not _clear_sign(function, t) and is_flat(t)
             for t in ends
         ):
             continue
-        if is_at_end:
+        if is_steep:
             first, last = low if left <= begin else Real(left), high if right >= end else Real(right)
             before, after = (
                 _sign(function, t, None if t is not low and t is not high else sign_at) for t in (first, last)
@@ -193,9 +197,11 @@ def zeros_between(
             if before == after or after == 0 or (before == 0 and first is low):
                 # Its only zero is an end, or there is none.
                 continue
-        if is_steady:
+            # It has one. A value that nearly vanishes at an end like a root has it at the square of that.
+            limit = max(deepest, DEEPEST)
+        if is_steady or (is_steep and before == 0):
             found += _zero_in(function, left, right, low, high, sign_at, known)
-        elif depth > deepest:
+        elif depth > limit:
             raise Undecided(
                 f"{function} is stationary, or begins or ends, about at 0 near {float(left):.15g}"
             )
