@@ -123,9 +123,10 @@ class FamilyClipper:
         if self.range.order(place, near[0]) > 0:
             return
         if self.range.order(place, far[0]) > 0:
-            # Along the run: its numbers are simpler than those of the way to it.
+            # From the run, by one number: the point shows that it is on the edge, the place need not.
             along = far[0] - near[0]
-            last = place + along * (self.range.radius / along.norm_sq().sqrt())
+            unit = along * (1 / along.norm_sq().sqrt())
+            last = near[0] + unit * (self.range.radius - (near[0] - place).dot(unit))
             far = last, self.rails[shown].parameter(last)
         one, other = (LineView(Real(0), (place, point), (here, u)) for point, u in (near, far))
         yield one, other

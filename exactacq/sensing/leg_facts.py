@@ -11,8 +11,10 @@ from dataclasses import replace
 from itertools import chain
 
 from exactacq.cached import cached_property
+from exactacq.geometry.coordinates import dot
 from exactacq.geometry.late import balls, from_to
 from exactacq.geometry.points import Point
+from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 from exactacq.scene.edge_table import EdgeTable
 from exactacq.sensing.end_names import holds
@@ -71,7 +73,21 @@ class LegFacts:
         some = rays or held or rim or tangent
         found = PlaceFacts([*rays.values()], held, rim, tangent) if some else NOTHING_KNOWN
         # Last: of several forms of one ray that of the way counts, which `OwnLine` uses too.
-        return found.joined(facts_on_leg(self._shares.view, table, self._shares.leg, place))
+        shares = self._shares
+        return found.joined(facts_on_leg(shares.view, table, shares.leg, place, self._met_beyond(place)))
+
+    def _met_beyond(self, place: Point) -> dict[int, Point]:
+        """Where a straight way's own line meets edges beyond a place, by what it shows from a stretch."""
+        leg = self._shares.leg
+        at, along = balls(place), from_to(balls(leg.start), balls(leg.end))
+        found: dict[int, Point] = {}
+        for share in chain.from_iterable(self._shares.of.values()):
+            shown, source = share.shown, share.source
+            is_along = share.family.free_views is None and source.low is not source.high
+            is_one = is_along and shown.low is shown.high
+            if is_one and ball_sign(dot(from_to(at, balls(shown.start)), along)) > 0:
+                found[share.edge] = shown.start
+        return found
 
     @cached_property
     def _ends(self) -> list[tuple[LineView, Share]]:

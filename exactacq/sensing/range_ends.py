@@ -228,8 +228,9 @@ class RangeEnds:
         far = free_views.sides[k]
         if isinstance(sector, Sliding):
             stops = [end.points[k] for end in (low, high) if end.tight]
+            # On other edges the point is made there, of one number too.
+            is_told = isinstance(curves[far.role], Segment) and not _is_rational(curves[far.role])
             for t, point in self._beside(sector, curves[far.role], stops):
-                is_told = isinstance(curves[far.role], Segment)
                 pin = point, self.views.rails[far.edge].parameter(point)
                 yield t, (k, pin) if is_told else None, True
             return

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from functools import partial
+from types import MappingProxyType
 from typing import TypeAlias
 
 from exactacq.cached import cached_property
@@ -34,6 +35,7 @@ from exactacq.sensing.visibility_complex import VisibilityComplex
 from exactacq.visibility.line_names import Names
 from exactacq.visibility.place_facts import Alignment, PlaceFacts, numbers_of_way
 
+NOTHING_MET: Mapping[int, Point] = MappingProxyType({})
 View: TypeAlias = "Callable[..., Seen]"
 """Gives what is seen from a point, given the edges through it, if these are known, and what else is known."""
 OWN = -8
@@ -186,17 +188,22 @@ def view_from_end(
     return view(end, own, partial(facts_on_leg, view, table, leg, end))
 
 
-def facts_on_leg(view: View, table: EdgeTable, leg: Leg, place: Point) -> PlaceFacts:
+def facts_on_leg(
+    view: View, table: EdgeTable, leg: Leg, place: Point, met: Mapping[int, Point] = NOTHING_MET
+) -> PlaceFacts:
     """What is known of the view from a place of a leg by the leg itself.
 
-    What a straight way comes to beyond the place is in sight from its start, past what its line touches.
+    What a straight way comes to beyond the place is in sight from its start, past what its line touches; or
+    it is known where edges are *met* there.
     """
     if leg.edge is not None or not leg.touches or place is leg.start:
         return leg.facts(table, place)
-    onward = leg.end - leg.start
-    return leg.facts(
-        table, place, lambda: view_from_end(view, table, leg, leg.start).ahead(leg.touches, onward)
-    )
+
+    def beyond() -> Mapping[int, Point]:
+        from_start = view_from_end(view, table, leg, leg.start)
+        return {**met, **from_start.ahead(leg.touches, leg.end - leg.start)}
+
+    return leg.facts(table, place, beyond)
 
 
 def _is_at_range(table: EdgeTable, halts: Iterable[HaltPlace], free_views: FreeViews, view: LineView) -> bool:

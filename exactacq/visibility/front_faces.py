@@ -46,7 +46,14 @@ from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility.features import is_spike
 from exactacq.visibility.line_balls import LONG, long_vector
 from exactacq.visibility.line_families import held
-from exactacq.visibility.place_facts import NOTHING_KNOWN, Alignment, PlaceFacts, Touched, along_edge
+from exactacq.visibility.place_facts import (
+    NOTHING_KNOWN,
+    Alignment,
+    PlaceFacts,
+    Touched,
+    along_edge,
+    by_touched,
+)
 from exactacq.visibility.sensor_range import Range
 
 NOWHERE = -1
@@ -197,7 +204,7 @@ class FrontFaces:
         facts: PlaceFacts = NOTHING_KNOWN,
     ) -> None:
         self.table, self.point, self.range, self.facts = table, point, range_, facts
-        self._rays = {touched: ray for ray in facts.rays for touched in ray.touched} if facts.rays else {}
+        self._rays = by_touched(facts.rays)
         self.origin = raw(point)
         self._marks: dict[int, SweepEnd] = {}
         self.here: list[int] = []
@@ -214,9 +221,8 @@ class FrontFaces:
         self.own = own
         faces.own = list(own)
         if len(own) == 1 and point.rational is None and isinstance(table.curves[own[0]], Segment):
-            rays = along_edge(table, point, own[0], near)
             # Those that were known tell more.
-            self._rays = {touched: ray for ray in rays for touched in ray.touched} | self._rays
+            self._rays = by_touched([*along_edge(table, point, own[0], near), *facts.rays])
         if open_:
             self._decide(open_)
         arcs: list[tuple[int, int, int]] = []

@@ -86,6 +86,16 @@ class Alignment:
             elif table.starts[feature] is not origin:
                 put_past_corner(point, origin, table.starts[feature])
 
+    def joined(self, other: Alignment) -> Alignment:
+        """This form of the ray, with what another one tells of it too."""
+        return replace(
+            self,
+            touched=self.touched | other.touched,
+            met={**other.met, **self.met},
+            feet={**other.feet, **self.feet},
+            lines=self.lines | other.lines,
+        )
+
     def touch(self, circle: int, center: Point) -> Point:
         """Where the ray touches a circle, given as a feature, about a centre."""
         if circle in self.feet:
@@ -136,6 +146,18 @@ class PlaceFacts:
 
 
 NOTHING_KNOWN = PlaceFacts()
+
+
+def by_touched(rays: Iterable[Alignment]) -> dict[Touched, Alignment]:
+    """Rays from one place by what they touch: those that touch one thing are one, in the form of the last."""
+    found: dict[Touched, Alignment] = {}
+    for ray in rays:
+        joined = ray
+        for touched in ray.touched:
+            if touched in found:
+                joined = joined.joined(found[touched])
+        found.update(dict.fromkeys(joined.touched, joined))
+    return found
 
 
 def tangents_from(
