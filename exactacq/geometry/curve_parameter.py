@@ -15,6 +15,7 @@ from exactacq.geometry.coordinates import Vector, cross, dot, minus, raw, sign
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.late import BITS, Balls, ball_of, balls
 from exactacq.geometry.points import Point
+from exactacq.numbers.rationals import ball_sign
 from exactacq.numbers.real import Real
 
 ZERO = Real(0)
@@ -100,7 +101,11 @@ class Rail:
 
 
 class _Along:
-    """Fractions of the way along a segment, read off the coordinate that grows faster."""
+    """Fractions of the way along a segment, read off the coordinate that grows faster, or off a rational one.
+
+    Where an irrational segment crosses upright or level lines, equal places have equal numbers so, however
+    they were found.
+    """
 
     def __init__(self, segment: Segment) -> None:
         start, end = raw(segment.start), raw(segment.end)
@@ -108,7 +113,8 @@ class _Along:
         across, up = abs(float(x)), abs(float(y))
         # Both floats are 0 where the segment is shorter than any float.
         self.steep = across < up or (across == up == 0 and sign(x) == 0)
-        self.start, self.growth = (start[1], y) if self.steep else (start[0], x)
+        both = (start[0], x), (start[1], y)
+        (self.start, self.growth), self._other = both[self.steep], both[not self.steep]
 
     def of(self, point: Point) -> Real:
         """That of a point, as late if the point is."""
@@ -120,8 +126,16 @@ class _Along:
 
     def exact(self, point: Point) -> Real:
         """That of a point, which is made."""
-        place = point.y if self.steep else point.x
-        return Real(((place if place.rational is None else place.rational) - self.start) / self.growth)
+        place, other = (point.y, point.x) if self.steep else (point.x, point.y)
+        start, growth = self.start, self.growth
+        if place.rational is None and other.rational is not None and self._grows_both:
+            place, (start, growth) = other, self._other
+        return Real(((place if place.rational is None else place.rational) - start) / growth)
+
+    @cached_property
+    def _grows_both(self) -> bool:
+        """Whether balls tell that the other coordinate changes too."""
+        return ball_sign(ball_of(self._other[1])) != 0
 
     @cached_property
     def _balls(self) -> Balls:

@@ -62,8 +62,21 @@ class StraightWay:
         self.number = len(self.clipper.rails) - 1
         self._feet: dict[int, Pin] = {}
         self._through_centres: dict[int, bool] = {}
+        self._name_lines_of_edges()
         if leg.touches:
             self._name_ends()
+
+    def _name_lines_of_edges(self) -> None:
+        """Name the ends that lie inside straight edges, as where the lines of these cross the way.
+
+        Where an end is rational its numbers tell that.
+        """
+        numbers, following = self.table.line_numbers, self.table.following
+        for end, u in self.ends:
+            for e in self.table.edges_at(end) if end.rational is None else ():
+                if not self.table.kinds[e]:
+                    key = numbers.corners(e, following[e])
+                    self.clipper.views.pins.put((key, self.number, 0), (end, u))
 
     def _name_ends(self) -> None:
         """Name the ends that lie on edges, as where the way's own line meets these.

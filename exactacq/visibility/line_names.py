@@ -18,6 +18,7 @@ from exactacq.scene.edge_table import EdgeTable
 from exactacq.visibility.features import Feature
 from exactacq.visibility.line_balls import line
 from exactacq.visibility.line_families import Sector
+from exactacq.visibility.place_facts import names_by_circles
 from exactacq.visibility.rotational_sweep import Passed
 
 Names: TypeAlias = "tuple[tuple[int, int], ...]"
@@ -47,14 +48,21 @@ class Namer:
         return tuple(zip(keys, senses, strict=True))
 
     def names_of_normal(self, e: int, sector: Sector, t: Real, passed: Passed) -> Names:
-        """The names of a straight edge's normal at *t*, if it passes an end of the edge.
+        """The names of a straight edge's normal at *t*, by two corners or by a circle and another feature.
 
-        It has them from other corners that it passes, and at a right angle from the edge beside.
+        Where it passes an end of the edge it has them from other corners that it passes, and at a right angle
+        from the edge beside.
         """
+        circles = [self.numbers.feature(number, True) for number, side, _ in passed if side]
+        names: Names = ()
+        if circles:
+            x, y, dx, dy = line(sector, t.ball(BITS))
+            features = [*circles, *(number for number, side, _ in passed if side == 0)]
+            names = tuple(names_by_circles(self.table, (x, y), (dx, dy), dict.fromkeys(features)))
         ends = e, self.table.following[e]
         own = next((number for number, side, _ in passed if side == 0 and number in ends), None)
         if own is None:
-            return ()
+            return names
         corners = {number: None for number, side, _ in passed if side == 0 and number != own}
         beside = self.table.preceding[e] if own == e else own
         one, other = self.table.curves[e], self.table.curves[beside]
@@ -63,7 +71,7 @@ class Namer:
             corners[beside if own == e else self.table.following[beside]] = None
         passed = tuple((number, 0, 0) for number in corners)
         keys = self.numbers.keys(own, [*passed])
-        return tuple(zip(keys, self._from_corner(own, sector, t, passed), strict=True))
+        return (*zip(keys, self._from_corner(own, sector, t, passed), strict=True), *names)
 
     def _from_corner(self, own: int, sector: Sector, t: Real, passed: Passed) -> Iterator[int]:
         """A float is enough to tell ahead from behind.

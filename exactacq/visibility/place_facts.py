@@ -217,13 +217,19 @@ def along_way(
 
 
 def numbers_of_way(table: EdgeTable, ends: tuple[Point, Point], features: Iterable[int]) -> Iterator[int]:
-    """Numbers of the line of two points that touches some features: by each circle and another feature.
+    """Numbers of the line of two points that touches some features, as `names_by_circles` tells them."""
+    start = balls(ends[0])
+    return (number for number, _ in names_by_circles(table, start, from_to(start, balls(ends[1])), features))
 
-    Balls tell on which side a circle lies, and what comes first; where they leave that open it gives no
-    number. (Of a line of two corners numbers tell enough: it is rational.)
+
+def names_by_circles(
+    table: EdgeTable, start: Balls, along: Balls, features: Iterable[int]
+) -> Iterator[tuple[int, int]]:
+    """Names (see `line_names`) of a line that touches some features: by each circle and another feature.
+
+    Balls tell on which side a circle lies, and what comes first; where they leave that open it gives no name.
     """
-    numbers, start = table.line_numbers, balls(ends[0])
-    along = from_to(start, balls(ends[1]))
+    numbers = table.line_numbers
     circles, corners = list[tuple[int, int, arb]](), list[tuple[int, arb]]()
     for feature in features:
         if numbers.is_circle(feature):
@@ -234,10 +240,11 @@ def numbers_of_way(table: EdgeTable, ends: tuple[Point, Point], features: Iterab
     for n, (circle, side, at) in enumerate(circles):
         for vertex, place in corners:
             if (ahead := ball_sign(at - place)) and side:
-                yield numbers.mixed(vertex, circle, side * ahead < 0)
+                yield numbers.mixed(vertex, circle, side * ahead < 0), ahead
         for other, beyond, place in circles[:n]:
             if (ahead := ball_sign(place - at)) and side and beyond:
-                yield numbers.tangent(circle, other, side * ahead, beyond * ahead)
+                sense = ahead if circle < other else -ahead
+                yield numbers.tangent(circle, other, side * ahead, beyond * ahead), sense
 
 
 def along_edge(table: EdgeTable, place: Point, e: int, near: Iterable[int]) -> Iterator[Alignment]:
