@@ -8,6 +8,7 @@ import exactacq as xa
 from exactacq.geometry.interval_union import Cover, Interval
 from exactacq.geometry.late import Pin
 from exactacq.geometry.points import Point
+from exactacq.kernel.line_keys import LineNumbers
 from exactacq.numbers import real
 from exactacq.sensing.named_pins import PINS_KEPT, NamedPins
 
@@ -17,7 +18,7 @@ def pin(k: int) -> Pin:
 
 
 def test_what_was_asked_for_last_is_kept() -> None:
-    pins = NamedPins()
+    pins = NamedPins(LineNumbers([]))
     first = pin(0)
     pins.put((0, 0, 0), first)
     for k in range(1, 3 * PINS_KEPT):
@@ -30,13 +31,29 @@ def test_what_was_asked_for_last_is_kept() -> None:
 
 
 def test_a_way_adds_to_what_is_shared() -> None:
-    scene, way = NamedPins(), pin(3)
+    numbers, way = LineNumbers([]), pin(3)
+    scene = NamedPins(numbers)
     scene.put((1, 2, 0), pin(1))
-    added = NamedPins(scene)
+    added = NamedPins(numbers, scene)
     added.put((7, 8, 0), way)
     assert added.get((1, 2, 0)) is scene.get((1, 2, 0))
     assert (added.get((7, 8, 0)), scene.get((7, 8, 0))) == (way, None)
     assert added.at(way[1]) == {(7, 8, 0): way}
+
+
+def test_a_point_is_known_by_every_number_of_its_line() -> None:
+    """Of a line through four corners one way knew one pair, another the other: until a third told of all."""
+    numbers = LineNumbers([*range(9)])
+    pins, here = NamedPins(numbers), pin(2)
+    one, other = numbers.corners(1, 2), numbers.corners(3, 4)
+    pins.put((one, 9, 0), here)
+    assert pins.get((other, 9, 0)) is None
+    assert numbers.keys(1, [(2, 0, 0)]) == [one]
+    assert numbers.keys(4, [(3, 0, 0), (2, 0, 0)])[0] == other
+    assert numbers.keys(2, [(1, 0, 0), (4, 0, 0)])[0] == one
+    assert pins.get((other, 9, 0)) is here
+    for name in ((other, 8, 0), (other, 9, 1), (numbers.corners(1, 7), 9, 0)):
+        assert pins.get(name) is None
 
 
 def test_few_ends_of_views_in_rows_of_holes_are_made_to_be_compared(monkeypatch: pytest.MonkeyPatch) -> None:

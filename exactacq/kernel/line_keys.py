@@ -26,6 +26,7 @@ class LineNumbers:
     def __init__(self, circles: list[int]) -> None:
         self.circles, self.count = circles, len(circles)
         self.used = 0
+        self._less: dict[int, int] = {}
 
     def feature(self, number: int, is_round: bool) -> int:
         """The number of a corner, or of the circle of an arc."""
@@ -62,7 +63,27 @@ class LineNumbers:
                 turn = sign if side > 0 or own < other else -sign
                 kind = 3 + 2 * int(side > 0) + int(turn > 0)
                 found.append(self._number(min(own, other), max(own, other), kind))
+        if len(found) > 1:
+            self._unite(found)
         return found
+
+    def least(self, key: int) -> int:
+        """One number for all that a line is known to have, as lines that pass several things have come up."""
+        while True:
+            less = self._less.get(key, key)
+            if less == key:
+                return key
+            key = less
+
+    def _unite(self, keys: list[int]) -> None:
+        """Note that some numbers are one line's."""
+        least = self.least(keys[0])
+        for key in keys:
+            other = self.least(key)
+            if other < least:
+                least, other = other, least
+            if other != least:
+                self._less[other] = least
 
     def corners(self, a: int, b: int) -> int:
         """The number of the line through two corners."""

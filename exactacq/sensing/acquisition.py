@@ -226,8 +226,11 @@ class Acquisition:
 
 
 def _at_distance(leg: Leg, point: Point, square: Real | fmpq) -> Iterator[Place]:
-    """The places of a leg at a squared distance from a point; of an arc about the point where it begins."""
-    for contact in contacts(leg.curve, Arc.circle(point, square)):
+    """The places on the whole curve of a leg at a squared distance from a point: as families find them too.
+
+    Of an arc about the point it is where the arc begins.
+    """
+    for contact in contacts(leg.rail.curve, Arc.circle(point, square)):
         yield leg.rail.parameter(contact.start), contact.start
 
 

@@ -37,7 +37,7 @@ class LineViews:
         base: LineViews | None = None,
     ) -> None:
         self.rails, self.table, self.numbers = rails, table, table.line_numbers
-        self.pins: NamedPins = NamedPins(None if base is None else base.pins)
+        self.pins: NamedPins = NamedPins(self.numbers, None if base is None else base.pins)
         self._points = LinePoints(rails)
         self._base = base
         self.way: int | None = None if base is None else len(rails) - 1

@@ -6,6 +6,7 @@ from collections.abc import Callable, Hashable
 from typing import TypeAlias
 
 from exactacq.geometry.late import Pin
+from exactacq.kernel.line_keys import LineNumbers
 from exactacq.numbers.real import Real
 from exactacq.recent import Recent
 
@@ -21,25 +22,31 @@ RimName: TypeAlias = "tuple[Hashable, Hashable, int]"
 class NamedPins:
     """Points in which named lines, and circles about named places, meet edges.
 
-    What a way adds to its *base* is its own. Those that were made or asked for last are kept, `PINS_KEPT` at
-    most: a point that was forgotten and is made again is recognised by its numbers.
+    *numbers* tell which numbers one line has. What a way adds to its *base* is its own. Those that were made
+    or asked for last are kept, `PINS_KEPT` at most: a point that was forgotten and is made again is
+    recognised by its numbers.
     """
 
-    __slots__ = ("_base", "_own", "_rims")
+    __slots__ = ("_base", "_numbers", "_own", "_rims")
 
-    def __init__(self, base: NamedPins | None = None) -> None:
+    def __init__(self, numbers: LineNumbers, base: NamedPins | None = None) -> None:
         self._own = Recent[PinName, Pin](PINS_KEPT)
         self._rims = Recent[RimName, list[Pin]](PINS_KEPT)
-        self._base = base
+        self._numbers, self._base = numbers, base
 
     def get(self, name: PinName) -> Pin | None:
         """The point of a name."""
-        pin = self._own.get(name)
+        pin = self._own.get(self._in_one_form(name))
         return pin if pin is not None or self._base is None else self._base.get(name)
 
     def put(self, name: PinName, pin: Pin) -> None:
         """Give a point a name."""
-        self._own.put(name, pin)
+        self._own.put(self._in_one_form(name), pin)
+
+    def _in_one_form(self, name: PinName) -> PinName:
+        """The name by the least number of the line, if it does not matter in which sense that is taken."""
+        key, edge, side = name
+        return name if side else (self._numbers.least(key), edge, side)
 
     def at(self, u: Real) -> dict[PinName, Pin]:
         """The points that have a number as their parameter, not counting those of the base."""

@@ -53,10 +53,11 @@ class StraightWay:
         assert isinstance(leg.rail.curve, Segment), "straight ways lie on lines"
         self.span, self.rail = leg.span, leg.rail
         self.line, self.spots = leg.rail.curve, leg.spots
-        self.touches: frozenset[int] = frozenset(leg.touches)
         self.piece = Segment(leg.span.start, leg.span.end)
+        self.touches: frozenset[int] = frozenset(leg.touches)
+        self.touches |= {f for key in self.own_lines for f in self.table.line_numbers.features(key)}
         at_range = partial(_is_at_range, self.table, leg.halts) if leg.halts else None
-        self.clipper = complex_.clipper.with_way(leg.rail, leg.touches, at_range)
+        self.clipper = complex_.clipper.with_way(leg.rail, self.touches, at_range)
         for name, pin in leg.named.items():
             self.clipper.views.pins.put(name, pin)
         self.number = len(self.clipper.rails) - 1

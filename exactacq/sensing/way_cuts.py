@@ -77,9 +77,10 @@ class WayCuts:
         Circles do not tell: two lines touch a corner and a circle, and up to four touch two circles. From a
         place where the robot halted it may be known which one the way is.
         """
-        if not self.way.own_lines.isdisjoint(key for key, _ in names):
-            return True
         numbers, touches = self.way.table.line_numbers, self.way.touches
+        own = {numbers.least(key) for key in self.way.own_lines}
+        if not own.isdisjoint(numbers.least(key) for key, _ in names):
+            return True
         if len(touches) < 2:
             return False
         pairs = (numbers.features(key) for key, _ in names)
