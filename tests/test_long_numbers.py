@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+import time
 from fractions import Fraction
 from itertools import product
 from math import isqrt, sqrt
@@ -90,3 +92,14 @@ def _longest_coefficient(value: Real) -> int:
                 seen.add(atom)
                 ahead.extend(atom.args)
     return longest
+
+
+def test_a_form_that_is_long_only_when_written_out_is_shown_by_digits() -> None:
+    """Each step holds the one before four times: written out it would be megabytes."""
+    number = Real(2).sqrt()
+    for _ in range(10):
+        number = (number * (number + 1).sqrt() + number + 3).sqrt() + number
+    begin = time.process_time()
+    assert re.fullmatch(r"\d+\.\d{20,30}\.\.\.", str(number))
+    assert time.process_time() - begin < 5
+    assert str((Real(2).sqrt() + 1).sqrt()) == "sqrt(1 + sqrt(2))"

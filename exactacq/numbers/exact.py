@@ -14,7 +14,7 @@ from exactacq.numbers.rationals import nonfinite
 if TYPE_CHECKING:
     import sympy
 
-    from exactacq.numbers.atoms import Form
+    from exactacq.numbers.atoms import Atom, Form
 
 GUARD = 10
 """Digits beyond those that are shown: rounding twice is then rounding once, but for ties no one could see."""
@@ -31,9 +31,29 @@ def is_short(number: Form, limit: int) -> bool:
     """Whether the closed form of a real may have no more than *limit* characters.
 
     Forms of more radicals are not even to be written out, which would take seconds: k distinct radicals take
-    more than k characters. Nor are those with numbers whose digits alone are too many.
+    more than k characters. Nor are those with numbers whose digits alone are too many, or whose parts are
+    where each is written out wherever it stands.
     """
-    return len(number.generators()) <= limit and number.height_bound() <= BITS_PER_CHARACTER * limit
+    if len(number.generators()) > limit or number.height_bound() > BITS_PER_CHARACTER * limit:
+        return False
+    return _digits_in(number, {}) <= limit
+
+
+def _digits_in(number: Form, known: dict[int, int]) -> int:
+    """About how many digits the closed form has; *known* are those of its nodes, by their identities."""
+    return sum(
+        (c.p.bit_length() + c.q.bit_length()) // BITS_PER_CHARACTER + _digits_below(atom, known)
+        for atom, c in number.terms.items()
+    )
+
+
+def _digits_below(atom: Atom, known: dict[int, int]) -> int:
+    if isinstance(atom, int):
+        return atom.bit_length() // BITS_PER_CHARACTER
+    if id(atom) not in known:
+        forms = (form for form in atom.args if hasattr(form, "terms"))
+        known[id(atom)] = 1 + sum(_digits_in(form, known) for form in forms)
+    return known[id(atom)]
 
 
 class Exact:
