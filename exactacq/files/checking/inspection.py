@@ -34,7 +34,10 @@ Place = tuple[fmpq, fmpq]
 STEPS = 4
 """Reading, violations, cures, and a start."""
 BEST, BEST_PARTS = 2, 4
-"""How many of the trials a start is looked for with, and how many of those of a part of a plan."""
+"""How many of the trials a start is looked for with, whatever their options, and how many of those of a part
+of a plan."""
+CLOSING = {"tolerance", "flatten"}
+"""Options that close chains, other than by walls around them."""
 COARSE = (fmpq(10) ** 9, fmpq(1), fmpq(1, 1000))
 """Lengths with which such a drawing is read to find out how large it is."""
 TOGETHER = {"tolerance", "union", "flatten"}
@@ -255,17 +258,34 @@ class _Inquiry:
     def _begun(self, is_open: bool) -> tuple[Options, Beginning] | None:
         """The options and the start with which there are most boundaries, and of such the fewest options.
 
-        Of the ways to read all of the file those up to the first that is good enough are looked at, if no
-        chain has to be closed; and the parts of a plan.
+        Of the ways to read all of the file those up to the first that is good enough and leaves no chain open
+        that could be closed are looked at, if no chain has to be closed; and the parts of a plan.
         """
         found: list[tuple[Options, Beginning]] = []
+        fewest = min((len(t.contents.open_chains) for t in self.tried if self._closes(t)), default=None)
         for options, contents in self._ways():
             is_enough = self._begin(options, contents, found)
-            if is_enough and not is_open:
+            closes_all = fewest is None or len(contents.open_chains) <= fewest
+            if is_enough and closes_all and not (is_open or self._is_of_lines(contents)):
                 break
         for trial in self._order(is_part=True)[:BEST_PARTS]:
             self._begin(trial.options, trial.contents, found)
         return max(found, key=_rank, default=None)
+
+    def _closes(self, trial: Trial) -> bool:
+        """Whether a trial closes chains without walls, breaks no further rule, and takes no loop away."""
+        known, left = ({loop.name for loop in told.loops} for told in (self.contents, trial.contents))
+        return (
+            not trial.is_part
+            and not CLOSING.isdisjoint(trial.options)
+            and known <= left
+            and len(trial.judged.violations) <= len(self.before.violations)
+            and len(trial.contents.open_chains) < len(self.contents.open_chains)
+        )
+
+    def _is_of_lines(self, contents: Contents) -> bool:
+        """Whether the file has no loops but lines, and more of these stay open than loops are closed."""
+        return not self.contents.loops and len(contents.open_chains) > len(contents.loops)
 
     def _begin(self, options: Options, contents: Contents, found: list[tuple[Options, Beginning]]) -> bool:
         """Add the start that is found with some options; whether it is good enough not to look further.
@@ -301,10 +321,20 @@ class _Inquiry:
         )
 
     def _ways(self) -> Iterator[tuple[Options, Contents]]:
-        """Contents to start in: as they are, with what leaves the fewest violations, and with all of that."""
+        """Contents to start in: as they are, with what leaves the fewest violations, and with all of that.
+
+        Of each further kind of options the best trial follows; walls only where a file consists of lines
+        and nothing else closes many of them.
+        """
         yield {}, self.contents
         order = self._order(is_part=False)
-        yield from ((trial.options, trial.contents) for trial in order[:BEST])
+        best = order[:BEST]
+        is_of_lines = all(self._is_of_lines(trial.contents) for trial in best)
+        for trial in order[BEST:]:
+            is_new = all(set(trial.options) != set(other.options) for other in best)
+            if is_new and (is_of_lines or "thicken" not in trial.options):
+                best.append(trial)
+        yield from ((trial.options, trial.contents) for trial in best)
         every: dict[str, object] = {}
         for trial in order:
             if TOGETHER.issuperset(trial.options) and trial.helps(self.before, self.contents):
