@@ -83,6 +83,10 @@ ALL, SEEN = ("sight", "regain", "acquire", "lose"), ("sight", "regain")
         pytest.param(40, ("lose",), id="a halt on a line of two discs"),
         pytest.param(41, SEEN, id="a view that is as long as the range where the way ends"),
         pytest.param(11, ALL, id="an own line that is another's end"),
+        pytest.param(112, ALL, id="a point at the range on an upright edge"),
+        pytest.param(54, ("sight",), id="a level line that touches a disc where another ends"),
+        pytest.param(63, ("lose",), id="a way that ends on an edge"),
+        pytest.param(58, ("lose",), id="a line of three discs under two numbers"),
     ],
 )
 def test_robots_that_decide_anew_where_something_happens(number: int, kinds: Kinds) -> None:
@@ -141,7 +145,7 @@ def test_what_points_are_told_is_true(number: int, monkeypatch: pytest.MonkeyPat
     with suppress(xa.Undecided):
         xa.explore(scene_of(number), again_and_again(number, ALL))
     assert told
-    for point, fact in told[:: 1 + len(told) // 400]:
+    for point, fact in told[:: 1 + len(told) // 120]:
         assert is_true(point, fact), (point.xy, fact)
 
 
@@ -194,3 +198,14 @@ def test_a_point_of_a_circle_knows_it_where_no_ball_tells_its_quarter() -> None:
     point = Point(near, Real(1 - near * near).sqrt())
     Rail(UNIT).parameter(point)
     assert is_put_on(point, UNIT.carrier)
+
+
+def test_corners_keep_nothing_of_runs() -> None:
+    """They outlive them."""
+    scene = scene_of(39)
+    for kinds in (ALL, SEEN):
+        with suppress(xa.Undecided):
+            xa.explore(scene, again_and_again(1, kinds))
+    corners = [edge.start for obstacle in scene.obstacles for edge in obstacle.edges]
+    facts = [fact for corner in corners for fact in constructions._facts(corner)]
+    assert all(isinstance(fact, Carrier) for fact in facts)

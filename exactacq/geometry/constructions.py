@@ -200,11 +200,14 @@ def _tangent(start: Point, end: Point, carrier: Carrier | None) -> _CircleTangen
 def _lines(start: Point, end: Point) -> Iterator[_Line]:
     """What is known of the line of two points: by lines through one of them on which the other one lies."""
     for point, other in ((end, start), (start, end)):
-        lines = [
-            fact for fact in _facts(point) if isinstance(fact, _CircleTangent | _CircleNormal | _CornerLine)
-        ]
-        origins = [line.origin for line in lines if any(_is_one(place, other) for place in _places(line))]
-        yield from (line for line in lines if any(line.origin is origin for origin in origins))
+        by_origin: dict[int, list[_Line]] = {}
+        for fact in _facts(point):
+            if isinstance(fact, _CircleTangent | _CircleNormal | _CornerLine):
+                by_origin.setdefault(id(fact.origin), []).append(fact)
+        for lines in by_origin.values():
+            is_origin = _is_one(lines[0].origin, other)
+            if is_origin or any(_is_one(place, other) for line in lines for place in _places(line)[1:]):
+                yield from lines
 
 
 def _places(line: _Line) -> tuple[Point, ...]:
@@ -218,20 +221,27 @@ def _places(line: _Line) -> tuple[Point, ...]:
 
 
 def put_equal(point: Point, other: Point) -> None:
-    """Note that two points are equal: each takes over what is known of the other."""
-    for taker, facts in ((point, _facts(other)), (other, _facts(point))):
-        for fact in facts:
-            match fact:
-                case Carrier():
-                    put_on(taker, fact)
-                case _CircleAbout(center, square):
-                    put_around(taker, center, square)
-                case _CircleTangent(origin, carrier, touch):
-                    put_on_tangent(taker, origin, carrier, touch)
-                case _CircleNormal(origin, carrier):
-                    put_on_normal(taker, origin, carrier)
-                case _CornerLine(origin, corner):
-                    put_past_corner(taker, origin, corner)
+    """Note that two points are equal: each takes over what is known of the other.
+
+    Nothing is noted of rational points: their numbers tell, and corners outlive what is known of places.
+    """
+    if _facts(point) is _facts(other):
+        return
+    if any(not one.is_late and one.rational is not None for one in (point, other)):
+        return
+    for fact in _facts(other):
+        match fact:
+            case Carrier():
+                put_on(point, fact)
+            case _CircleAbout(center, square):
+                put_around(point, center, square)
+            case _CircleTangent(origin, carrier, touch):
+                put_on_tangent(point, origin, carrier, touch)
+            case _CircleNormal(origin, carrier):
+                put_on_normal(point, origin, carrier)
+            case _CornerLine(origin, corner):
+                put_past_corner(point, origin, corner)
+    other._facts = _facts(point)
 
 
 def _put(point: Point, fact: _Fact) -> None:

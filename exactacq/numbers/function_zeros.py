@@ -29,8 +29,8 @@ BITS = 256
 FINENESS = 100
 """A cell of 2^-100 that shows neither a sign nor a slope holds a double zero, or is taken to. In a range of
 width w < 1 cells are searched down to 2^-100 w^3."""
-DEEPEST = 5000
-"""A zero that is known to lie in a cell, beside an end like a root, is sought down to 2^-5000."""
+DEEPEST = 3000
+"""A zero that is known to lie in a cell, beside an end like a root, is sought down to 2^-3000."""
 MOST_CELLS = 50_000
 """Cells of a range that are looked at: some seconds' work. Nearly all searches take a few hundred at most."""
 STALLED_BITS = 1 << 16
@@ -112,7 +112,9 @@ class Zero(Node):
         M/m < 2 is known of the cell; of a part of it another formula may tell less.
         """
         function, low, high = self.args
-        with workprec(max(bits, BITS)):
+        # That of the search, which narrow cells need.
+        depth = (high - low).q.bit_length() - 1
+        with workprec(max(bits, BITS) + 2 * max(0, depth - FINENESS)):
             cell = _cell(low, high)
             ball, slope = self._ball if self._bits else cell, _slope(function, cell)
             while True:
@@ -190,7 +192,11 @@ def zeros_between(
         ):
             continue
         if is_steep:
-            first, last = low if left <= begin else Real(left), high if right >= end else Real(right)
+            # Where a cell juts out the function may not be real; it is narrower than what encloses an end.
+            first = low if low.compare(left) >= 0 else Real(left)
+            last = high if high.compare(right) <= 0 else Real(right)
+            if first.compare(last) >= 0:
+                continue
             before, after = (
                 _sign(function, t, None if t is not low and t is not high else sign_at) for t in (first, last)
             )
