@@ -49,6 +49,10 @@ class FormatError(ExactacqError, ValueError):
     """
 
 
+class CurvesRefused(FormatError):
+    """A drawing has curves that are read by arcs only, with the option ``flatten``."""
+
+
 class MoveError(ExactacqError, ValueError):
     """A robot was to do, or asked, what makes no sense where it is; the message says what is wrong.
 

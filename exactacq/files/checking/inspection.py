@@ -12,14 +12,13 @@ from typing import Any
 
 from flint import fmpq
 
-from exactacq.errors import FormatError, InvalidScene, Undecided
+from exactacq.errors import CurvesRefused, FormatError, InvalidScene, Undecided
 from exactacq.files.checking.cures import Options, Trial, cured, near_enough, size_of, trials, words
 from exactacq.files.checking.flaws import Judged, judged
 from exactacq.files.checking.lines import OpenChain, open_chains
 from exactacq.files.checking.sketch import Sketch, places_of
 from exactacq.files.checking.starts import Beginning, beginning, vision
 from exactacq.files.loops.contents import Contents
-from exactacq.files.repairs.flattened import CurvesRefused
 from exactacq.files.rereading import rereading
 from exactacq.files.sources import NamedSource
 from exactacq.geometry.intersections import ContactKind

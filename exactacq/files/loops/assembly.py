@@ -7,14 +7,13 @@ from collections.abc import Sequence
 
 from flint import fmpq
 
-from exactacq.errors import FormatError, shown
+from exactacq.errors import CurvesRefused, FormatError, shown
 from exactacq.files.counting import count
 from exactacq.files.loops.chains import Chain, scientific_above
 from exactacq.files.loops.contents import Contents, Layers
 from exactacq.files.loops.cusps import open_cusps
 from exactacq.files.loops.drawing import Drawing, main_box
 from exactacq.files.loops.stitching import Stitched, stitch
-from exactacq.files.repairs.flattened import CurvesRefused
 from exactacq.files.repairs.gaps import MOST_EDGES, ChainGaps, copied, gaps_of
 from exactacq.files.repairs.thicken import thicken
 from exactacq.files.source import check_edges

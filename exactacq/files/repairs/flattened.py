@@ -35,10 +35,6 @@ BY_ARCS = "read by arcs within a distance, with --flatten LENGTH"
 """What messages about curves that are not read propose, and notes about those that are left out."""
 
 
-class CurvesRefused(FormatError):
-    """A drawing is refused for curves that are read with ``flatten``."""
-
-
 @dataclass(slots=True)
 class Flattening:
     """How far curves and what stands for them may be apart, and what was flattened so far."""

@@ -16,14 +16,14 @@ from pathlib import Path
 
 from flint import fmpq
 
-from exactacq.errors import FormatError, about
+from exactacq.errors import CurvesRefused, FormatError, about
 from exactacq.files.counting import count
 from exactacq.files.loops.assembly import drawing_contents
 from exactacq.files.loops.chains import Chain, Corner, root_above, scientific_above
 from exactacq.files.loops.contents import Contents
 from exactacq.files.loops.drawing import Drawing, LayerChoice
 from exactacq.files.loops.rational_arcs import arc_around
-from exactacq.files.repairs.flattened import BY_ARCS, CurvesRefused, Flattening
+from exactacq.files.repairs.flattened import BY_ARCS, Flattening
 from exactacq.files.source import MAX_BYTES, MAX_EDGES, check_edges, one_line, read_bytes
 from exactacq.files.svg.document import MAX_DEPTH, MAX_ELEMENTS, Element, named, parse
 from exactacq.files.svg.path_data import DrawnCurve, Subpath, oval_arc, subpaths

@@ -8,11 +8,11 @@ from typing import NoReturn
 
 from flint import fmpq
 
-from exactacq.errors import FormatError
+from exactacq.errors import CurvesRefused, FormatError
 from exactacq.files.loops.chains import ZERO, Corner, root_above
 from exactacq.files.loops.rational_arcs import arc_of_radius, rational_turn
 from exactacq.files.repairs.bezier import BezierPiece, arc_pieces, polynomial
-from exactacq.files.repairs.flattened import BY_ARCS, CurvesRefused
+from exactacq.files.repairs.flattened import BY_ARCS
 from exactacq.files.source import MAX_EDGES, one_line
 from exactacq.files.svg.transforms import NUMBER
 from exactacq.numbers.rationals import rational
