@@ -115,22 +115,25 @@ class EdgeTable:
     @cached_property
     def circles(self) -> dict[int, int]:
         """For every arc the number of the first arc on its circle."""
-        arcs = ((e, curve) for e, curve in enumerate(self.curves) if isinstance(curve, Arc))
-        return {e: self._first_arcs.setdefault((*raw(a.center), a.radius_sq), e) for e, a in arcs}
+        return {e: first for first, arcs in self._on_circles.items() for e in arcs}
 
     @cached_property
-    def _first_arcs(self) -> dict[Hashable, int]:
-        """The first arc on each circle, by centre and squared radius, as `circles` comes to them."""
-        return {}
+    def _arcs_by_circle(self) -> dict[Hashable, list[int]]:
+        """The arcs on each circle, by its centre and squared radius: what a `Carrier` has too."""
+        found: dict[Hashable, list[int]] = {}
+        for e, curve in enumerate(self.curves):
+            if isinstance(curve, Arc):
+                found.setdefault((*raw(curve.center), curve.radius_sq), []).append(e)
+        return found
 
     def known_touched(self, start: Point, end: Point) -> list[int]:
         """The features that the line of two points is known to touch by how these were made, however far."""
         numbers = self.line_numbers
         passed = (corner for corner in corners_passed(start, end) if not corner.is_late)
         corners = (v for corner in passed for v in self.vertices_at(corner))
-        arcs = (self._first_arcs.get(circle) for circle in circles_touched(start, end))
+        arcs = (self._arcs_by_circle.get(circle) for circle in circles_touched(start, end))
         found = [numbers.feature(v, False) for v in corners if not self.full[v]]
-        return found + [numbers.feature(e, True) for e in arcs if e is not None]
+        return found + [numbers.feature(some[0], True) for some in arcs if some is not None]
 
     def vertices_at(self, point: Point) -> list[int]:
         """The vertices at a point."""
@@ -152,10 +155,7 @@ class EdgeTable:
     @cached_property
     def _on_circles(self) -> dict[int, tuple[int, ...]]:
         """By the first arc of every circle all that are on it."""
-        found: dict[int, list[int]] = {}
-        for e, first in self.circles.items():
-            found.setdefault(first, []).append(e)
-        return {first: tuple(arcs) for first, arcs in found.items()}
+        return {arcs[0]: tuple(arcs) for arcs in self._arcs_by_circle.values()}
 
     @cached_property
     def line_numbers(self) -> LineNumbers:

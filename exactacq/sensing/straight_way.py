@@ -182,11 +182,11 @@ class StraightWay:
         for halt in self.leg.halts:
             for other in ends if any(halt.place is end for end in ends) else ():
                 for ray in halt.facts.rays:
-                    if other is not halt.place and self._is_along(ray, halt.place, other):
+                    if other is not halt.place and self._follows(ray, halt.place, other):
                         found |= ray.lines
         return frozenset(found)
 
-    def _is_along(self, ray: Alignment, place: Point, other: Point) -> bool:
+    def _follows(self, ray: Alignment, place: Point, other: Point) -> bool:
         """Whether a ray from one end of the way touches what the way does on its way to the other end."""
         return any(
             not side or tangent_side(place, other, self.table.arc_on(feature).carrier) == side
