@@ -21,7 +21,7 @@ from exactacq.scene.shapes import Circle, Outline, Polygon, Shape
 DATA = Path(__file__).parent / "data"
 PLATE = Path(__file__).parents[1] / "exactacq" / "files" / "data" / "issue42.dxf"
 FAR = (10**6, 10**6)
-MIRRORED = {"extrusion": (0, 0, -1)}
+MIRRORED = {"extrusion": (1e-16, 0, -1)}
 
 Draw = Callable[[ezdxf.layouts.Modelspace], object]
 
@@ -233,7 +233,7 @@ def test_what_cannot_be_read_is_named_with_counts(tmp_path: Path) -> None:
         for x in range(3):
             space.add_text("wall", dxfattribs={"insert": (x, 9)})
         space.add_spline([(0, 5), (1, 6), (2, 5)])
-        space.add_circle((5, 5), 1, dxfattribs={"extrusion": (1, 0, 0)})
+        space.add_circle((5, 5), 1, dxfattribs={"extrusion": (1, 0, 1e-11)})
 
     scene = load(drawing(tmp_path, draw), start=FAR)
     assert note(scene, "left out") == "left out 3 TEXTs, 1 ELLIPSE, 1 SPLINE, 1 CIRCLE in a tilted plane"

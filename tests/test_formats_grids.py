@@ -173,6 +173,9 @@ def test_yaml_with_lists_quotes_and_comments(tmp_path: Path) -> None:
         "origin:\n- -1\n- 2\n- 0.0\nnegate: 0\nfree_thresh: 0.196\n"
     )
     assert areas(xa.load(path)) == wanted
+    (tmp_path / "plan.png").rename(tmp_path / "it's #1.png")
+    path.write_text(path.read_text().replace('"plan.png"', '"it\'s #1.png"'))
+    assert areas(xa.load(path)) == wanted
 
 
 # -- images ----------------------------------------------------------------------------------------

@@ -249,6 +249,7 @@ class TestErrorsWhereTheMistakeIs:
             (lambda: xa.sightseer(SCENE, 3, start=(1, 2, 3)), "start: a point needs two numbers"),
             (lambda: xa.isovist(SCENE, (1, 2, 3)), "point: a point needs two numbers"),
             (lambda: xa.Segment((0, 0), "01"), "a point needs two numbers, not '01'"),
+            (lambda: xa.Segment((0, 0), b"01"), "a point needs two numbers, not b'01'"),
             (lambda: xa.Scene(5), "the obstacles are a list of shapes, not 5"),
             (lambda: xa.Scene(xa.Circle((0, 0), 1)), "not a single one"),
             (lambda: xa.Scene([(0, 0), (1, 0), (0, 1)]), "obstacle 0: vertex 0: a vertex is "),

@@ -173,6 +173,7 @@ RULES = [
     ),
     (([], {"start": (10, 11), "enclosure": ROOM}), "start (10, 11) lies outside the enclosure 'room'"),
     (([], {"radius": 0}), "radius 0: a sensing radius must be positive"),
+    (([], {"radius": "1e-400"}), "radius: a sensing radius of less than 1/10^100 is not supported"),
     (([], {"terrain": Terrain(0, 1)}), "terrain width 0: must be positive"),
     (([], {"terrain": Terrain(1, "-1/2")}), "terrain height -0.5: must be positive"),
     (([], {"enclosure": Polygon([(0, 0), (2, 2), (2, 0), (0, 2)])}), "the enclosure: edges 0 and 2 cross"),

@@ -64,7 +64,7 @@ class Point:
         if isinstance(value, Point):
             return value
         try:
-            x, y = point_pair(None if isinstance(value, str) else value)
+            x, y = point_pair(None if isinstance(value, str | bytes | bytearray) else value)
         except (TypeError, ValueError):
             raise FormatError(f"a point needs two numbers, not {shown(value)}") from None
         return cls(x, y)

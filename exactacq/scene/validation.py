@@ -185,6 +185,8 @@ def sensor_flaws(start: Point | None, radius: fmpq | None) -> Iterator[str]:
         yield f"radius {_number(radius)}: a sensing radius must be positive"
     if radius is not None and radius > LIMIT:
         yield f"radius: a sensing radius of more than {LIMIT_TEXT} is not supported"
+    if radius is not None and 0 < radius * LIMIT < 1:
+        yield f"radius: a sensing radius of less than 1/{LIMIT_TEXT} is not supported"
     if start is not None:
         yield from place_flaws("start", start)
 

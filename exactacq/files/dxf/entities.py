@@ -38,6 +38,8 @@ MAX_LINES = 20 * MAX_EDGES
 MOST_NAMED = 6
 """So many layers with hidden entities are named at most."""
 BINARY = b"AutoCAD Binary DXF\r\n\x1a\x00"
+LEVEL = 1e-12
+"""Slope of a plane that is taken for level: some programs write a rotation's rounding errors."""
 _OPENING = re.compile(rb"(?:\xef\xbb\xbf)?\s*(?:999[ \t]*\r?\n[^\n]*\n\s*)*0[ \t]*\r?\n[ \t]*SECTION\s")
 _HEADER = re.compile(rb"\n[ \t]*2[ \t]*\r?\n[ \t]*HEADER\s")
 _VERSION = re.compile(rb"(\$ACADVER\s+1\s+)(AC\d+)")
@@ -307,4 +309,4 @@ def _exact(value: float) -> fmpq:
 def _mirror(entity: Any) -> int | None:
     """1 or -1 as x keeps or changes its sign in the entity's coordinates; None if its plane is tilted."""
     x, y, z = entity.dxf.get("extrusion", (0.0, 0.0, 1.0))
-    return None if x or y or not z else 1 if z > 0 else -1
+    return None if max(abs(x), abs(y)) > LEVEL * abs(z) or not z else 1 if z > 0 else -1

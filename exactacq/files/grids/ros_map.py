@@ -30,6 +30,8 @@ MAX_YAW = 1000
 """Largest yaw, in radians: a few turns are legal, more are a mistake."""
 IMAGES = (".pgm", ".png", ".bmp", ".gif", ".jpg", ".jpeg")
 _ENTRY = re.compile(r"([A-Za-z_]\w*)\s*:(?:\s+(.*))?")
+_COMMENT = re.compile(r"""((?<![^\s\[,])(?:"[^"]*"|'[^']*'))|(?:^|\s)#.*""")
+"""A comment, or a value in quotation marks, in which "#" begins none."""
 
 
 def load_ros_map(
@@ -121,7 +123,7 @@ def _entries(text: str) -> dict[str, list[str]]:
     found: dict[str, list[str]] = {}
     open_list: list[str] | None = None
     for number, line in enumerate(lines, 1):
-        content = re.sub(r"(^|\s)#.*", "", line).strip()
+        content = _COMMENT.sub(lambda found: found[1] or "", line).strip()
         entry = _ENTRY.fullmatch(content)
         if not content or content in ("---", "..."):
             continue

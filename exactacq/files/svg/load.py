@@ -40,6 +40,8 @@ TERRAIN = "terrain"
 """The ``data-kind`` of the border of a terrain, as `exactacq.files.writing.svg` draws it: it is no wall."""
 MAX_TEXT = MAX_BYTES
 """Most characters of attributes that are drawn: no file has more if none of its elements is used again."""
+CONDITIONS = ("requiredExtensions", "requiredFeatures", "systemLanguage")
+"""What asks a reader for something, as the elements in a ``switch`` do."""
 CUTS = ("clip-path", "mask")
 """What hides parts of elements, which are read whole."""
 Pair = tuple[fmpq, fmpq]
@@ -103,6 +105,8 @@ class _SvgReader:
         self.named = named(root)
         with about(f"line {root.line}"):
             matrix, box = outermost(root.attributes)
+        if root.style("transform") not in ("", "none"):
+            self.drawing.dropped["transform of the whole drawing"] += 1
         for part in root.parts:
             self._draw(part, _DrawnIn(matrix, box))
 
@@ -129,8 +133,14 @@ class _SvgReader:
         if kind == "use":
             self._use(element, frame)
             return
-        for part in element.parts:
+        for part in self._chosen(element.parts) if kind == "switch" else element.parts:
             self._draw(part, frame)
+
+    def _chosen(self, parts: list[Element]) -> list[Element]:
+        """Of the elements in a ``switch`` the first that asks a reader for nothing."""
+        shown = [part for part in parts if not any(key in part.attributes for key in CONDITIONS)][:1]
+        self.drawing.dropped.update(["other choice of a switch"] * (len(parts) - len(shown)))
+        return shown
 
     def _count(self, element: Element) -> None:
         """`FormatError` if uses make too much of a file, of its elements or of their long attributes."""
