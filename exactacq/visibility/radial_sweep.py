@@ -260,7 +260,12 @@ class RadialSweep:
         return self._touching(late_point(around, _made_hit, curve, faces.point, own, make), rank)
 
     def _touching(self, hit: Point, rank: int) -> Point:
-        """A point that was made in the direction of a rank, told which features the line to it touches."""
+        """A point that was made in the direction of a rank, told which features the line to it touches.
+
+        Rational numbers tell this themselves.
+        """
+        if not hit.is_late and hit.rational is not None and self.faces.point.rational is not None:
+            return hit
         faces, count = self.faces, len(self.table.vertices)
         for event in self.events(rank):
             if event >= count:
