@@ -90,3 +90,17 @@ def test_references_that_place_nothing_are_left_out(
     path.write_bytes(dxf_of(reference, LOOP, blocks=(("CIRCLE", 10, 0.0, 20, 0.0, 40, 1.0),)))
     scene = xa.load(path, start=FAR)
     assert len(scene.obstacles) == 1 and told in scene.notes
+
+
+def test_lines_of_a_width_are_told(tmp_path: Path) -> None:
+    """A ring of a polyline with a width is how AutoCAD draws a donut: what is read is half as large."""
+    document = ezdxf.new()
+    space = document.modelspace()
+    for x, width in ((0, 1), (9, 0)):
+        space.add_lwpolyline([(x, 0, 1), (x + 1, 0, 1)], "xyb", close=True, dxfattribs={"const_width": width})
+    wide = {"default_start_width": 1, "default_end_width": 1}
+    space.add_polyline2d([(20, 0), (24, 0), (24, 4)], close=True, dxfattribs=wide)
+    document.saveas(tmp_path / "wide.dxf")
+    notes = xa.load(tmp_path / "wide.dxf", start=FAR).notes
+    told = [note.removeprefix("read the middle line of ") for note in notes if "width" in note]
+    assert told == ["1 LWPOLYLINE drawn with a width", "1 POLYLINE drawn with a width"]

@@ -93,6 +93,8 @@ def read_drawing(path: Path, layers: Iterable[str] | None, flattening: Flattenin
         drawing.has_curves = True
         ways.append(f"ellipses and splines are {BY_ARCS}")
     drawing.readable = "; ".join(ways)
+    for kind, number in drawing.wide.items():
+        drawing.notes.append(f"read the middle line of {count(number, kind)} drawn with a width")
     if drawing.layers:
         drawing.unit = unit
         said = f"the file's unit: {drawing.unit}" if drawing.unit else "the file names no unit"
@@ -211,6 +213,8 @@ class _Reader:
             reason = kind if read is None else read(entity)
         if reason:
             self.drawing.dropped[reason] += 1
+        elif kind.endswith("POLYLINE") and entity.has_width:
+            self.drawing.wide[kind] += 1
 
     def _label(self, entity: Any) -> str:
         handle = entity.dxf.get("handle")

@@ -31,6 +31,8 @@ class Drawing:
     chains: list[Chain] = field(default_factory=list)
     circles: list[tuple[int, Circle]] = field(default_factory=list)
     dropped: Counter[str] = field(default_factory=Counter)
+    wide: Counter[str] = field(default_factory=Counter)
+    """Entities that are drawn with a width, by name, of which the middle lines are read."""
     notes: list[str] = field(default_factory=list)
     layers: Counter[str] = field(default_factory=Counter)
     """Number of entities of each layer, in the file's spelling, selected or not."""
