@@ -189,6 +189,9 @@ def test_refusals() -> None:
         sqrt(sqrt(2) - 2)
     with pytest.raises(ZeroDivisionError):
         1 / (sqrt(8) - 2 * sqrt(2))
+    hidden = sqrt(2 + sqrt(2)) * sqrt(2 - sqrt(2)) - sqrt(2)
+    with pytest.raises(ZeroDivisionError):
+        hidden / hidden
     with pytest.raises(ZeroDivisionError):
         Real(1) / 0
     with pytest.raises(TypeError):

@@ -265,7 +265,7 @@ class Real(Exact):
             if not b:
                 raise ZeroDivisionError("division of an exact real by zero")
             return real(a / b) if a is not None else self._scaled(1 / b)
-        if self.terms == right.terms:
+        if self.terms == right.terms and right.sign():
             return real(ONE)
         return self * right._inverse()
 
