@@ -283,6 +283,9 @@ def test_float_at_a_midpoint_goes_to_even() -> None:
     assert float(middle - tiny) == 1.0
     hidden = ((sqrt(2) + sqrt(7)) ** 2 * (sqrt(3) + 1)).sqrt() - (sqrt(2) + sqrt(7)) * (sqrt(3) + 1).sqrt()
     assert hidden.rational is None and float(middle + hidden) == 1.0
+    # Balls of 512 bits are wide, around other midpoints too, or around numbers beyond the floats.
+    for power in (490, 1100, 6000):
+        assert float(middle + hidden * 2**power) == 1.0 and float(hidden * 2**power) == 0.0
 
 
 def gaps(near: float) -> Iterator[tuple[float, Fraction]]:

@@ -146,10 +146,10 @@ def enclose(ball: Enclosing, bits: int) -> tuple[fmpq, fmpq]:
 def round_to_float(ball: Enclosing, equals: Callable[[fmpq], bool]) -> float:
     """The float nearest to a value given by balls, ties to even; OverflowError beyond the largest float.
 
-    Balls of up to 512 bits decide unless they contain the midpoint of two floats; then ``equals(q)``, an
-    exact comparison of the value with that midpoint, tells a tie from a value that refinement settles.
-    While they contain 0 they go on to 4096 bits: a value less than half of the least float is rounded to 0,
-    and whether it is 0 need not be proved.
+    Balls of 512 bits, or more until they are narrower than the gap between floats, decide unless they contain
+    the midpoint of two floats; then ``equals(q)``, an exact comparison of the value with that midpoint, tells
+    a tie from a value that refinement settles. A value less than half of the least float is rounded to 0, and
+    whether it is 0 need not be proved.
     """
     bits = 64
     while True:
@@ -161,13 +161,12 @@ def round_to_float(ball: Enclosing, equals: Callable[[fmpq], bool]) -> float:
             half = arb(ulp(nextafter(near, 0.0))) / 2
             if isfinite(near) and abs(value - near) < half:
                 return near
-            if bits >= (4096 if value.contains(0) else 512):
+            if bits >= 512 and value.rad() < half:
                 break
         bits *= 2
     low, high = ends(value)
     below, above = nearest_float(low), nearest_float(high)
-    middle = (rational(below) + rational(above)) / 2 if below != above else low
-    if equals(middle):
+    if below != above and equals(middle := (rational(below) + rational(above)) / 2):
         return nearest_float(middle)
     while nearest_float(low) != nearest_float(high):
         bits *= 2
