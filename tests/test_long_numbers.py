@@ -52,6 +52,15 @@ def test_numbers_beyond_what_python_writes_are_written() -> None:
     assert place_text(near) == "(2.000000000, -1.000000000)"
 
 
+def test_all_digits_are_right_of_numbers_that_nearly_cancel() -> None:
+    """A ball of 2^17 bits shows the sign of such a number, and few of its digits."""
+    bits = 131_050
+    tiny = Real(2).sqrt() - Real(fmpq(isqrt(2 << 2 * bits), 1 << bits))
+    shown = tiny.decimal(30)
+    tiny.ball(4 * bits)
+    assert shown == tiny.decimal(30) == "4.66432708153402882771756026306e-39452"
+
+
 def test_what_would_take_minutes_to_write_is_told_by_digits() -> None:
     """Lengths up to events between two C shapes: a closed form has some 10^6 characters."""
     bulge, inner = Fraction(37321, 10000), Fraction(-37321, 10000)

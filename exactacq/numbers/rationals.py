@@ -176,7 +176,7 @@ def round_to_float(ball: Enclosing, equals: Callable[[fmpq], bool]) -> float:
 
 
 def decimal_string(ball: Enclosing, digits: int) -> str:
-    """Decimal with *digits* significant digits from ``ball(working_bits)``."""
+    """Decimal with *digits* significant digits from ``ball(working_bits)``; 0 if 2^16 bits show none."""
     if operator.index(digits) < 1:
         raise ValueError(f"at least 1 digit is needed, not {digits}")
     bits = int(digits * 3.33) + 64
@@ -185,7 +185,7 @@ def decimal_string(ball: Enclosing, digits: int) -> str:
         if value.is_exact() and value == 0:
             return "0"
         text = str(value.str(digits, radius=False))
-        if value.rel_accuracy_bits() > digits * 3.33 + 4 or bits > 1 << 16:
+        if value.rel_accuracy_bits() > digits * 3.33 + 4 or (bits > 1 << 16 and value.contains(0)):
             return text
         bits *= 2
 
