@@ -48,6 +48,7 @@ def test_numbers_beyond_what_python_writes_are_written() -> None:
     """Python refuses to write integers of more than 4300 digits; a place in a hostile drawing had more."""
     assert plain(fmpq(10**6000 + 1, 4)) == "25" + "0" * 5998 + ".25"
     assert plain(fmpq(-1, 2**5000)).startswith("-0.000")
+    assert f"{Real('1e5000'):.2f}" == f"{Length('1e5000'):.2f}" == "1" + "0" * 5000 + ".00"
     near = Point(fmpq(1, 3**9999) + 2, fmpq(-(10**5000) - 1, 10**5000))
     assert place_text(near) == "(2.000000000, -1.000000000)"
 

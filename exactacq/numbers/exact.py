@@ -200,7 +200,7 @@ class Exact:
         _, point, places = spec.rstrip("%eEfFgGn").rpartition(".")
         wanted = int(places) if point and places.isdigit() else 6
         number: Any = self
-        whole = len(str(max(int(abs(end).floor()) for end in number.enclosure(8))))
+        whole = len(str(max(abs(end).floor() for end in number.enclosure(8))))
         return format(Decimal(number.decimal(whole + wanted + GUARD)), spec)
 
     def latex(self) -> str:
