@@ -35,5 +35,10 @@ def test_quotients_are_ordered_as_their_values(rows: list[int]) -> None:
             assert expected == 0 and not tells and a != c and b != d
 
 
+def test_a_rational_quotient_is_compared_exactly_from_both_sides() -> None:
+    half, same = Length(1) / Length(2), Length.turns(1) / Length.turns(2)
+    assert half == same and same == half and half.compare(Length.turns(-2) / Length.turns(-5)) == 1
+
+
 def value(length: Length) -> mpmath.mpf:
     return mpmath.mpf(length.decimal(60))

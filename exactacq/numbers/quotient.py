@@ -71,7 +71,7 @@ class Quotient(Exact):
     def _against(self, right: Quotient | fmpq) -> int:
         number = right.rational if isinstance(right, Quotient) else right
         if isinstance(right, Quotient) and number is None:
-            return self._ordered(right)
+            return self._ordered(right) if self.rational is None else -right._against(self.rational)
         return int((self.top - self.bottom * number).sign() * self._sign)
 
     def _ordered(self, other: Quotient) -> int:
