@@ -184,6 +184,14 @@ def test_rational_refuses_what_is_no_number(text: object) -> None:
         rational(text)
 
 
+def test_a_long_text_that_is_no_number_is_refused_at_once() -> None:
+    """Its digits could be divided in many ways between both sides of a point that is not there."""
+    started = time.perf_counter()
+    with pytest.raises(FormatError):
+        rational("1" * 4999 + "x")
+    assert time.perf_counter() - started < 0.5
+
+
 def test_refusals() -> None:
     with pytest.raises(ValueError, match="negative"):
         sqrt(sqrt(2) - 2)

@@ -27,7 +27,7 @@ Enclosing: TypeAlias = Callable[[int], arb]
 ZERO = arb(0)
 """To compare with: a number of Python's would be made a ball each time."""
 
-_LITERAL = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,6})?(/\d+)?", re.ASCII)
+_LITERAL = re.compile(r"[+-]?(\d+(?:\.\d*)?|\.\d+)([eE][+-]?\d{1,6})?(/\d+)?", re.ASCII)
 
 
 def rational(value: object) -> fmpq:
