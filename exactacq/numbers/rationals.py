@@ -36,8 +36,8 @@ def rational(value: object) -> fmpq:
     Integers and floats of numpy are taken too, also as arrays of no dimension, and integers and rationals of
     sympy and others. A float is the binary fraction that it is: 0.1 is not 1/10, but "0.1" is.
 
-    Literals are integers, decimals and ``"p/q"``.  Raises `FormatError` for anything else, for NaN and
-    infinities, and beyond `MAX_DIGITS` digits.
+    Literals are integers, decimals, also of `decimal`, and ``"p/q"``.  Raises `FormatError` for anything
+    else, for NaN and infinities, and beyond `MAX_DIGITS` digits.
     """
     if isinstance(value, fmpq):
         return value
@@ -51,13 +51,13 @@ def rational(value: object) -> fmpq:
         return value.rational
     if isinstance(value, Fraction):
         return fmpq(value.numerator, value.denominator)
+    if isinstance(value, str | Decimal):  # The ratio of Decimal("1e999999999") would take all memory.
+        return _literal(str(value).strip())
     if isinstance(value, float) or hasattr(value, "as_integer_ratio"):
         try:
             return fmpq(*value.as_integer_ratio())
         except (ValueError, OverflowError):
             raise FormatError(f"not a finite number: {value!r}") from None
-    if isinstance(value, str):
-        return _literal(value.strip())
     if isinstance(value, Rational):
         return fmpq(int(value.numerator), int(value.denominator))
     if getattr(value, "shape", None) == () and hasattr(value, "item"):  # an array of no dimension
