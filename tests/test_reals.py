@@ -23,6 +23,7 @@ from hypothesis import strategies as st
 from exactacq.errors import FormatError, Undecided
 from exactacq.numbers import sign
 from exactacq.numbers.atoms import Node
+from exactacq.numbers.float_bounds import float_ball
 from exactacq.numbers.function_zeros import roots
 from exactacq.numbers.precision import workprec
 from exactacq.numbers.rationals import ball_sign, nearest_float, rational, rational_sign, round_to_float
@@ -479,6 +480,13 @@ def test_the_nearest_float_and_the_sign_of_a_rational(value: Fraction, power: in
                 nearest_float(q)
         else:
             assert nearest_float(q) == expected
+
+
+@pytest.mark.parametrize("value", ["1e-400", "-1e-310", "1.23456789e-320", "1e-200", "1/3", "0"])
+def test_a_float_ball_holds_its_number_however_small(value: str) -> None:
+    for number in (Real(value), Real(value) * sqrt(2)):
+        near, error = float_ball(number)
+        assert abs(number - near) <= error <= 2.0**-50 * max(abs(near), 1e-200)
 
 
 @given(st.floats(allow_nan=False, allow_infinity=False), st.floats(0, 1e300))

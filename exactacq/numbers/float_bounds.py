@@ -44,4 +44,4 @@ def float_ball(t: Real) -> tuple[float, float]:
         middle = float(ball)
         return middle, margin(2.0 * float(ball.rad()) + UNIT * abs(middle) + TINY)
     middle = nearest_float(t.rational)
-    return middle, margin(UNIT * abs(middle))
+    return middle, margin(UNIT * max(abs(middle), TINY))
