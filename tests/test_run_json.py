@@ -38,6 +38,7 @@ from exactacq import (
 from exactacq.errors import Undecided
 from exactacq.files import gallery
 from exactacq.files.octagons import random_octagons
+from exactacq.numbers import number_json
 from exactacq.numbers.function_zeros import roots
 from exactacq.numbers.number_json import Decoder, Encoder
 from exactacq.output.run_json import VERSION
@@ -239,6 +240,17 @@ def test_damage_is_one_clear_error(change) -> None:
     with pytest.raises(FormatError) as caught:
         load_run(damaged(change))
     assert "\n" not in str(caught.value)
+
+
+def test_products_of_long_radicals_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A few bytes stand for each, and many digits: without a bound a file of a megabyte took all memory."""
+    monkeypatch.setattr(number_json, "MAX_TOTAL", 1 << 18)
+    radicals = [[["1", ["radical", str(10**300 + 2 * k + 1)]]] for k in range(32)]
+    products = [[["1", ["product", 2 * k, 2 * k + 1]]] for k in range(31)]
+    again = [[["1", ["product", 62, k]]] for k in range(16)]
+    Decoder([*radicals, *products], ViewLength.of_parts)
+    with pytest.raises(FormatError, match="too large"):
+        Decoder([*radicals, *products, *again], ViewLength.of_parts)
 
 
 @pytest.mark.parametrize("content", [b"", b"{", b"\x00\xff", b"[" * 10**5, b'{"obstacles": []}', b"3"])

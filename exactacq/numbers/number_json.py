@@ -33,7 +33,7 @@ MAX_DEGREE = 200
 MAX_DEPTH = 64
 """Most levels of expressions within expressions that are read; runs have two or three."""
 MAX_SIZE = 1 << 26
-"""Most bits of the coefficients of a number that is read: squares of squares double them at every step.
+"""Most bits of the coefficients and radicands of a number that is read: squares of squares double them.
 
 Runs have numbers of some 2^18 bits. Heights are no measure: those of nested numbers reach 2^30 and more.
 """
@@ -106,6 +106,7 @@ class Decoder:
         for entry in table:
             value = Real.sum(self._atom(atom) * _fraction(c) for c, atom in entry)
             size = sum(int(c.p.bit_length() + c.q.bit_length()) for c in value.terms.values())
+            size += sum(atom.bit_length() for atom in value.terms if isinstance(atom, int))
             total += size
             if size > MAX_SIZE or total > MAX_TOTAL:
                 raise FormatError(f"number {len(self._values)} is too large")
