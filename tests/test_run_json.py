@@ -192,6 +192,10 @@ HIGH = [["1", ["root", ["-1", "-1", *["0"] * 37, "1"], 0, 1]], ["1", ["radical",
 """1 + x with x^39 = x + 1: its inverse plus 1, and the inverse of that plus 1, take long."""
 
 
+LONG = [[str(3**8000 + k), ["root", ["-2", *["0"] * 59, "1"], 1, k]] for k in range(1, 60)]
+"""An element of a field of degree 60, of coefficients with 3818 digits: its inverse takes minutes."""
+
+
 def nested(k: int) -> list:
     """Entry k + 1 of the table: 1 + sqrt(number k)."""
     return [["1", ["radical", "1"]], ["1", ["sqrt", k]]]
@@ -225,6 +229,7 @@ def damaged(change):
         ),
         lambda d: d.update(numbers=[ONE_PLUS_ROOT, *(nested(k) for k in range(99))]),
         lambda d: d.update(numbers=[HIGH, *([["1", ["inverse", k]], HIGH[1]] for k in range(9999))]),
+        lambda d: d.update(numbers=[LONG, [["1", ["inverse", 0]]]]),
         lambda d: d.update(numbers={}),
         lambda d: d.update(start=["0"]),
         lambda d: d.update(start=["nan", "0"]),

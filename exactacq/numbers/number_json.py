@@ -40,10 +40,12 @@ Runs have numbers of some 2^18 bits. Heights are no measure: those of nested num
 MAX_TOTAL = 1 << 30
 """Most bits of all numbers of a document, which bounds the memory that they take."""
 MAX_INVERTED = 10**6
-"""Largest sum of the cubes of the degrees of fields in which inverses are computed: about a second.
+"""Most cubes of degrees of fields with inverses, times squares of lengths in `INVERTED_BITS`: about a second.
 
 Files that are written have none: an element of the field of one root is written as a form.
 """
+INVERTED_BITS = 512
+"""An inverse takes the longer, by the square, the more often its longest coefficient is as long as this."""
 MAX_PARTS = 8
 """Most parts of a function of which a zero is read: a length of views has three."""
 MAX_FINENESS = 1 << 12
@@ -149,10 +151,11 @@ class Decoder:
         if kind == "product" and len(values) == 2:
             return values[0] * values[1]
         if kind == "inverse" and len(values) == 1:
-            field = field_of(values[0].terms)
-            self._inverted += 0 if field is None else (len(field[0]) - 1) ** 3
+            if (field := field_of(values[0].terms)) is not None:
+                bits = max(int(c.height_bits()) for c in (*values[0].terms.values(), *map(fmpq, field[0])))
+                self._inverted += (len(field[0]) - 1) ** 3 * (1 + bits // INVERTED_BITS) ** 2
             if self._inverted > MAX_INVERTED:
-                raise FormatError("too many inverses in fields of high degree")
+                raise FormatError("too many inverses of long numbers or in fields of high degree")
             return 1 / values[0]
         raise FormatError(f"unknown kind of number {str(kind)[:20]!r}")
 
