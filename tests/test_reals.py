@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from decimal import Decimal
 from fractions import Fraction
 from functools import reduce
-from math import inf, isqrt, nextafter
+from math import ceil, floor, inf, isqrt, nextafter
 from random import Random
 
 import mpmath
@@ -295,6 +295,14 @@ def test_float_at_a_midpoint_goes_to_even() -> None:
     # Balls of 512 bits are wide, around other midpoints too, or around numbers beyond the floats.
     for power in (490, 1100, 6000):
         assert float(middle + hidden * 2**power) == 1.0 and float(hidden * 2**power) == 0.0
+
+
+def test_floors_and_ceilings_are_those_of_the_number_itself() -> None:
+    """No float tells such numbers from the integer beside them."""
+    hidden, tiny = sqrt(2 + sqrt(2)) * sqrt(2 - sqrt(2)) - sqrt(2), sqrt(2) / 10**60
+    for whole in (3, 0, -3):
+        for value, steps in ((whole + hidden, (0, 0)), (whole + tiny, (0, 1)), (whole - tiny, (-1, 0))):
+            assert (floor(value) - whole, ceil(value) - whole) == steps
 
 
 def gaps(near: float) -> Iterator[tuple[float, Fraction]]:

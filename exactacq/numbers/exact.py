@@ -232,3 +232,13 @@ class Exact:
         elif below < 0 or (below == 0 and nearest % 2):
             nearest -= 1
         return nearest if places is None else fmpq(nearest) / scale
+
+    def __floor__(self) -> int:
+        """The greatest integer that is not more: `math.floor` would else take that of the nearest float."""
+        nearest: Any = round(self)
+        return int(nearest) - (self.compare(nearest) < 0)
+
+    def __ceil__(self) -> int:
+        """The least integer that is not less, for `math.ceil`."""
+        nearest: Any = round(self)
+        return int(nearest) + (self.compare(nearest) > 0)
