@@ -453,6 +453,16 @@ def test_undecided_names_the_number(monkeypatch: pytest.MonkeyPatch) -> None:
 # -- closed form -----------------------------------------------------------------------------------
 
 
+def test_undecided_where_a_divisor_is_tiny() -> None:
+    """What a pickle brings has no balls yet: those of 2^16 bits cannot exclude that the divisor is 0."""
+    total = Real.sum(roots([-n, -1, 0, 1])[0] for n in (2, 3, 5))
+    data = pickle.dumps(1 / (total - total.enclosure(80_000)[0]))
+    gc.collect()
+    inverse = pickle.loads(data)
+    with pytest.raises(Undecided, match="0 to"):
+        ((inverse + 1) * (inverse - 1) - (inverse * inverse - 1)).sign()
+
+
 def test_closed_forms() -> None:
     assert str(7 + 3 * sqrt(2)) == "3*sqrt(2) + 7"
     assert str(Real("1/2")) == "1/2" and repr(Real("1/2")) == "Real('1/2')"

@@ -55,7 +55,7 @@ def decided_sign(value: Any) -> int:
                 return sign
             if ball.abs_upper() < arb(2) ** -limit:
                 return 0
-            if limit > ZERO_TEST_BITS and bits >= TRIAL_BITS:
+            if limit > ZERO_TEST_BITS and bits >= TRIAL_BITS and ball.is_finite():
                 if _is_known_zero(value):
                     return 0
                 raise Undecided(
