@@ -355,3 +355,13 @@ def seen(bow: Bow, spot: Spot | None) -> Any:
 @given(cuts())
 def test_arcs_of_a_circle_make_it_whole(case: tuple[tuple[Bow, ...], Bow]) -> None:
     check_cuts(case)
+
+
+@pytest.mark.parametrize("digits", [20, 60, 300])
+def test_a_tiny_angle_and_what_it_leaves_of_a_twelfth_tie(digits: int) -> None:
+    """Of 192 bits a lattice shows nothing of an angle below 2^-192."""
+    half, t = Real(3).sqrt() / 2, fmpq(3, 10**digits + 1)
+    root = Real(t * t + 1).sqrt()
+    for c, s in ((1 / root, t / root), (Real((1 - t * t) / (1 + t * t)), Real(2 * t / (1 + t * t)))):
+        rest = Length.arc(1, half * c + s / 2, c / 2 - half * s)
+        assert Length.arc(1, c, s) + rest == Length.turns(1, "1/12")

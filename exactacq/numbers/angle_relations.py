@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from itertools import combinations, pairwise
-from math import gcd, isqrt
+from math import frexp, gcd, isqrt
 
 from flint import arb, fmpq, fmpz, fmpz_mat
 
@@ -285,7 +285,8 @@ def _relation(angles: list[Angle]) -> AngleSum | None:
     if all(angle.half_tangent is not None for angle in angles):
         return None
     size = len(angles) + 1
-    bits = 64 * size
+    # Of tiny angles as many bits as of others: else any multiple of theirs is 0 in the lattice.
+    bits = 64 * size + max(-frexp(float(angle.ball(64)))[1] for angle in angles)
     rows = [[int(i == k) for i in range(size - 1)] for k in range(size)]
     with workprec(bits + 64):
         for angle, row in zip(angles, rows, strict=False):
