@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from fractions import Fraction
 from random import Random
 
@@ -31,6 +32,10 @@ class TestNumbers:
         assert (1 / t * t - 1).sign() == 0
         assert (t + ROOT2) * (t - ROOT2) == t * t - 2
         assert ((t + 1 / t + 2).sqrt() - (t + 1) / t.sqrt()).sign() == 0
+
+    def test_a_copy_is_the_same_number(self) -> None:
+        t = e() + ROOT2
+        assert copy.deepcopy(t) == t and copy.deepcopy([t, t * t])[1] == t * t
 
     def test_a_radical_that_takes_the_other_sign_is_none(self) -> None:
         t = e()

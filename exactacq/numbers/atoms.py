@@ -91,6 +91,10 @@ class Node(ABC):
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self).make, self.args
 
+    def __deepcopy__(self, memo: object) -> Node:
+        # A copy of a transcendental number's name would be another number.
+        return self
+
     def ball(self, bits: int) -> arb:
         """Enclosure computed with at least *bits* working bits (the caller has set the precision)."""
         if self._bits < bits:
