@@ -7,9 +7,10 @@ from decimal import Decimal
 from math import isnan
 from typing import TYPE_CHECKING, Any
 
-from flint import fmpq
+from flint import arb, fmpq
 
-from exactacq.numbers.rationals import nonfinite
+from exactacq.numbers.rationals import ball_sign, decimal_string, nearest_float, nonfinite, round_to_float
+from exactacq.numbers.sign import FILTER_BITS
 
 if TYPE_CHECKING:
     import sympy
@@ -60,8 +61,8 @@ class Exact:
     """A number with an exact order.
 
     A subclass says what it takes for a number (`_coerced`) and how it compares with one (`_against`). It has
-    ``rational`` (None if it is irrational), ``numbers``, the reals in its closed form, `sign`, `enclosure`,
-    `decimal`, `sympy` and a product with rationals.
+    ``rational`` (None if it is irrational), ``numbers``, the reals in its closed form, `sign`, `ball`,
+    `enclosure`, `sympy` and a product with rationals.
 
     >>> from exactacq.numbers.length import Length
     >>> root = Length(2) * Length("3/2").algebraic
@@ -78,8 +79,8 @@ class Exact:
         """The reals in the closed form."""
         raise NotImplementedError
 
-    def decimal(self, digits: int) -> str:
-        """The number rounded to so many significant digits."""
+    def ball(self, bits: int) -> arb:
+        """An enclosing ball, computed with *bits* working bits or more."""
         raise NotImplementedError
 
     def sympy(self) -> sympy.Expr:
@@ -172,6 +173,23 @@ class Exact:
         if self.rational is None:
             raise ValueError(f"an irrational number is no ratio of integers: {self}")
         return int(self.rational.p), int(self.rational.q)
+
+    def __float__(self) -> float:
+        """The nearest float, ties to even; OverflowError beyond the largest float, as for Fraction."""
+        if self.rational is not None:
+            return nearest_float(self.rational)
+        return round_to_float(self.ball, lambda middle: self.compare(middle) == 0) + 0.0  # never -0.0
+
+    def decimal(self, digits: int) -> str:
+        """The value with *digits* significant digits, right to within one unit of the last.
+
+        >>> from exactacq.numbers.length import Length
+        >>> Length.turns(1).decimal(30)
+        '6.28318530717958647692528676656'
+        """
+        if not ball_sign(self.ball(FILTER_BITS[-1])) and self.sign() == 0:
+            return "0"
+        return decimal_string(self.ball, digits)
 
     def __str__(self) -> str:
         """The closed form; 30 digits and an ellipsis where it may have more than 10,000 characters.

@@ -38,10 +38,8 @@ from exactacq.numbers.precision import workprec
 from exactacq.numbers.quotient import Quotient
 from exactacq.numbers.rationals import (
     ball_sign,
-    decimal_string,
     enclose,
     rational,
-    round_to_float,
     sympy_rational,
 )
 from exactacq.numbers.real import FILTER_BITS, Real
@@ -333,22 +331,6 @@ class Length(Exact):
         if self.is_algebraic:
             return self._algebraic.enclosure(bits)
         return enclose(self.ball, bits)
-
-    def __float__(self) -> float:
-        """The nearest float, ties to even; OverflowError beyond the largest float."""
-        if self.is_algebraic:
-            return float(self._algebraic)
-        return round_to_float(self.ball, lambda middle: self.compare(middle) == 0) + 0.0  # never -0.0
-
-    def decimal(self, digits: int) -> str:
-        """The value with *digits* significant digits, right to within one unit of the last.
-
-        >>> Length.turns(1).decimal(30)
-        '6.28318530717958647692528676656'
-        """
-        if ball_sign(self.ball(FILTER_BITS[-1])) == 0 and self.sign() == 0:
-            return "0"
-        return decimal_string(self.ball, digits)
 
     def sympy(self) -> sympy.Expr:
         """The closed form as a sympy expression, full turns and proved relations folded to pi.

@@ -9,7 +9,7 @@ from flint import arb, fmpq
 from exactacq.errors import FormatError, Undecided
 from exactacq.numbers.exact import Exact
 from exactacq.numbers.precision import workprec
-from exactacq.numbers.rationals import ball_sign, decimal_string, enclose, rational, round_to_float
+from exactacq.numbers.rationals import ball_sign, enclose, rational
 
 EARLY, LATE = (64, 256), (1024, 4096)
 """Working bits of balls that tell two irrational quotients apart, before and after these are multiplied."""
@@ -96,14 +96,6 @@ class Quotient(Exact):
             return d * a.algebraic - b * c.algebraic
         # Times one bottom only, and its sign.
         return (a - c) * b.sign() if b == d else None
-
-    def __float__(self) -> float:
-        """The nearest float."""
-        return round_to_float(self.ball, lambda middle: self.compare(middle) == 0) + 0.0
-
-    def decimal(self, digits: int) -> str:
-        """The value with *digits* significant digits."""
-        return decimal_string(self.ball, digits) if self.top.sign() else "0"
 
     def __str__(self) -> str:
         return self.decimal(15)

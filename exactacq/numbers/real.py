@@ -57,13 +57,11 @@ from exactacq.numbers.linear_forms import (
 from exactacq.numbers.precision import LOCK, workprec
 from exactacq.numbers.rationals import (
     ball_sign,
-    decimal_string,
     enclose,
     nearest_float,
     parted,
     rational,
     rational_sign,
-    round_to_float,
     sympy_rational,
 )
 from exactacq.numbers.sign import FILTER_BITS, ZERO_TEST_BITS, decided_sign
@@ -470,27 +468,11 @@ class Real(Exact):
             return self.rational, self.rational
         return enclose(self.ball, bits)
 
-    def __float__(self) -> float:
-        """The nearest float, ties to even; OverflowError beyond the largest float, as for Fraction."""
-        if self.rational is not None:
-            return nearest_float(self.rational)
-        return round_to_float(self.ball, lambda middle: self == middle) + 0.0
-
     def rough(self) -> float:
         """A float near the value: to draw or to sort, never to decide."""
         if self._bits == LATE:
             return float(self._ball)
         return nearest_float(self.rational) if self.rational is not None else float(self.ball(64))
-
-    def decimal(self, digits: int) -> str:
-        """The value with *digits* significant digits, right to within one unit of the last.
-
-        >>> Real(2).sqrt().decimal(30)
-        '1.41421356237309504880168872421'
-        """
-        if not ball_sign(self.ball(FILTER_BITS[-1])) and self.sign() == 0:
-            return "0"
-        return decimal_string(self.ball, digits)
 
     def sympy(self) -> sympy.Expr:
         """The closed form as a sympy expression.
