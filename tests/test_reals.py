@@ -7,7 +7,7 @@ import gc
 import pickle
 import random
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from decimal import Decimal
 from fractions import Fraction
 from functools import reduce
@@ -23,7 +23,7 @@ from hypothesis import strategies as st
 from exactacq.errors import FormatError, Undecided
 from exactacq.numbers import sign
 from exactacq.numbers.atoms import Node
-from exactacq.numbers.float_bounds import float_ball
+from exactacq.numbers.float_bounds import float_ball, rough
 from exactacq.numbers.function_zeros import roots
 from exactacq.numbers.precision import workprec
 from exactacq.numbers.rationals import ball_sign, nearest_float, rational, rational_sign, round_to_float
@@ -505,6 +505,15 @@ def test_a_float_ball_holds_its_number_however_small(value: str) -> None:
     for number in (Real(value), Real(value) * sqrt(2)):
         near, error = float_ball(number)
         assert abs(number - near) <= error <= 2.0**-50 * max(abs(near), 1e-200)
+
+
+@pytest.mark.parametrize("near", [rough, float, lambda value: float_ball(value)[0]])
+def test_floats_of_what_a_tiny_number_divides(near: Callable[[Real], float]) -> None:
+    """What a pickle brings has no balls yet: those of 64 bits cannot exclude that the divisor is 0."""
+    total = Real.sum(sqrt(k) for k in (2, 3, 5))
+    data = pickle.dumps(1 / (total - total.enclosure(300)[0]))
+    gc.collect()
+    assert near(pickle.loads(data)) == pytest.approx(1.3033518851450302e108, rel=1e-15)
 
 
 @given(st.floats(allow_nan=False, allow_infinity=False), st.floats(0, 1e300))

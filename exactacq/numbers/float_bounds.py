@@ -27,9 +27,10 @@ def rough(value: Real) -> float:
     bits = 64
     while True:
         ball = value.ball(bits)
-        middle = nearest_float(ball.mid().fmpq())
-        if float(ball.rad()) <= 2.0**-55 * max(abs(middle), TINY):
-            return middle
+        if ball.is_finite():  # not so while an inverse cannot exclude 0
+            middle = nearest_float(ball.mid().fmpq())
+            if float(ball.rad()) <= 2.0**-55 * max(abs(middle), TINY):
+                return middle
         bits *= 2
 
 
@@ -38,7 +39,7 @@ def float_ball(t: Real) -> tuple[float, float]:
     if t.is_late or t.rational is None:
         bits = 64
         ball = t.ball(bits)
-        while not t.is_late and ball.rad() > 2.0**-52 * max(abs(float(ball)), 1.0):
+        while not t.is_late and not ball.rad() <= 2.0**-52 * max(abs(float(ball)), 1.0):
             bits *= 2
             ball = t.ball(bits)
         middle = float(ball)
