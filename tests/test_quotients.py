@@ -5,11 +5,12 @@ from __future__ import annotations
 import itertools
 
 import mpmath
+import pytest
 from flint import fmpq
 from hypothesis import given
 from hypothesis import strategies as st
 
-from exactacq.errors import Undecided
+from exactacq.errors import FormatError, Undecided
 from exactacq.numbers.length import Length
 from exactacq.numbers.real import Real
 
@@ -38,6 +39,17 @@ def test_quotients_are_ordered_as_their_values(rows: list[int]) -> None:
 def test_a_rational_quotient_is_compared_exactly_from_both_sides() -> None:
     half, same = Length(1) / Length(2), Length.turns(1) / Length.turns(2)
     assert half == same and same == half and half.compare(Length.turns(-2) / Length.turns(-5)) == 1
+
+
+def test_a_quotient_is_not_compared_with_a_number_of_long_form() -> None:
+    """To refuse it no closed form is written, which would take seconds."""
+    nested = Real(2)
+    for k in range(100):
+        nested = (nested + k).sqrt()
+    with pytest.raises(TypeError, match="cannot compare"):
+        (Length(1) / Length.turns(1)).compare(nested)
+    with pytest.raises(FormatError, match=r"not a rational number: <Real 10\."):
+        Length.turns(1, nested)
 
 
 def value(length: Length) -> mpmath.mpf:

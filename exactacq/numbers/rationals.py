@@ -47,7 +47,7 @@ def rational(value: object) -> fmpq:
         return fmpq(value)
     if hasattr(value, "rational"):
         if value.rational is None:
-            raise FormatError(f"not a rational number: {value}")
+            raise FormatError(f"not a rational number: {shown(value)}")
         return value.rational
     if isinstance(value, Fraction):
         return fmpq(value.numerator, value.denominator)
