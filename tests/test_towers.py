@@ -414,3 +414,12 @@ def test_what_long_balls_tell_apart_is_not_computed_in_the_field(monkeypatch: py
     assert sign._separation_bits(value) > sign.TOWER_BITS
     monkeypatch.setattr(sign, "vanishes", lambda value: pytest.fail("computed in the field"))
     assert value.sign() == -1
+
+
+def test_numbers_of_a_field_of_functions_have_one_order() -> None:
+    """They come as a set, whose order is another one in every process."""
+    numbers = [((-n, 0, 0, 1), 0) for n in (2, 3, 5)]
+    fields = RationalFunctions(numbers), RationalFunctions(numbers[::-1])
+    for coefficients, index in numbers:
+        first, second = (field.of_atom(Root.make(coefficients, index, 1)) for field in fields)
+        assert first == second

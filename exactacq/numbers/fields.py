@@ -107,7 +107,9 @@ class RationalFunctions(FractionField):
     def __init__(self, numbers: Sequence[Node | RootKey]) -> None:
         names = tuple(f"x{k}" for k in range(len(numbers)))
         self._ring = fmpz_mpoly_ctx.get(names, Ordering.degrevlex)
-        self._numbers = [one if isinstance(one, Node) else Root.make(one[0], one[1], 1) for one in numbers]
+        nodes = (one if isinstance(one, Node) else Root.make(one[0], one[1], 1) for one in numbers)
+        # The order tells how long polynomials take, and so what is given up: all processes have the same.
+        self._numbers = sorted(nodes, key=lambda node: node.middle)
         self._variables = dict(zip(self._numbers, self._ring.gens(), strict=True))
         self.one = self._ring.constant(1)
 
