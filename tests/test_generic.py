@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import pickle
 from fractions import Fraction
 from random import Random
 
@@ -36,6 +37,8 @@ class TestNumbers:
     def test_a_copy_is_the_same_number(self) -> None:
         t = e() + ROOT2
         assert copy.deepcopy(t) == t and copy.deepcopy([t, t * t])[1] == t * t
+        inside = xa.sightseer(xa.load("circles")).view_at(5).point
+        assert pickle.loads(pickle.dumps(inside)) == inside
 
     def test_a_radical_that_takes_the_other_sign_is_none(self) -> None:
         t = e()

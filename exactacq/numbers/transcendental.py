@@ -11,8 +11,10 @@ of square roots (`exactacq.numbers.tower`) shows that they vanish.
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable
+from functools import partial
 from math import prod
 from typing import TYPE_CHECKING, Any, TypeVar, cast
+from uuid import uuid4
 
 from flint import arb, ctx, fmpq
 
@@ -72,7 +74,8 @@ def generic_in(value: Form) -> Generic | None:
 
 def transcendental(real: type[R], ball: Enclosing) -> R:
     """A new number from its balls; that it is transcendental is the caller's promise."""
-    made: R = cast(Any, real).of_atom(Generic.make(object(), ball))
+    # The name is no other number's, in a process that the number is sent to neither.
+    made: R = cast(Any, real).of_atom(Generic.make(uuid4(), ball))
     return made
 
 
@@ -81,16 +84,16 @@ def turned(radial: tuple[R, R], sense: int, length: Enclosing, radius: Enclosing
 
     That e to the power of i times the angle is transcendental is the caller's promise.
     """
-
-    def quarter_tangent(bits: int) -> arb:
-        return (sense * length(bits) / radius(bits) / 4).tan()
-
     x, y = cast("tuple[Any, Any]", radial)
-    tau = transcendental(type(x), quarter_tangent)
+    tau = transcendental(type(x), partial(_quarter_tangent, sense, length, radius))
     square = tau * tau
     half_cos, half_sin = (1 - square) / (1 + square), 2 * tau / (1 + square)
     cosine, sine = half_cos * half_cos - half_sin * half_sin, 2 * half_cos * half_sin
     return x * cosine - y * sine, y * cosine + x * sine
+
+
+def _quarter_tangent(sense: int, length: Enclosing, radius: Enclosing, bits: int) -> arb:
+    return (sense * length(bits) / radius(bits) / 4).tan()
 
 
 def sign_at(value: Form, tau: Generic) -> int:
