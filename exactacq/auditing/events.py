@@ -43,10 +43,12 @@ def check_events(run: Run, rng: Random, moves: Collection[EventKind]) -> None:
     ends = EventKind.START, EventKind.STOP
     if (kinds[:1], kinds[-1:]) != ([ends[0]], [ends[1]]) or not set(ends).isdisjoint(kinds[1:-1]):
         raise AuditError("events begin with one start and end with one stop")
-    places = []
+    obstacles, places = range(len(run.obstacles)), []
     for event in run.events:
         if event.kind not in moves and event.kind not in SENSED:
             raise AuditError(f"{event_name(run, event)} is of no known kind")
+        if event.obstacle not in (obstacles if event.kind in SENSED else (None, *obstacles)):
+            raise AuditError(f"{event_name(run, event)} is about none that the run has")
         if not _is_at(run, event):
             raise AuditError(f"{event_name(run, event)} is not on the path: {place_text(event.point)}")
         places.append(event_position(run, event))

@@ -45,7 +45,7 @@ def check_own_moves(run: OwnRun, bodies: Sequence[AuditedBody], tracks: Tracks) 
     if len(set(run.visits)) < len(run.visits):
         raise AuditError(f"visits are {list(run.visits)}, which names one twice")
     for number in run.visits:
-        if not _is_rounded(run, tracks, number):
+        if number not in range(len(run.obstacles)) or not _is_rounded(run, tracks, number):
             raise AuditError(f"obstacle {number} was visited, but never walked all around")
 
 
