@@ -9,7 +9,11 @@ import pytest
 from test_audit import refused, with_event
 
 import exactacq as xa
+from exactacq.sensing.event import EventKind
 from exactacq.strategies.run import Run
+
+SQUARES = ((0, 0, 2), (3, 1, 1), (1, 3, 1))
+"""Corner and side: from the corner (2, 2) of the first the other two are as near as can be."""
 
 
 @cache
@@ -37,3 +41,24 @@ class TestObstacles:
         k = number(run, "hit")
         refused(with_event(run, k, obstacle=2), f"event {k} (hit of obstacle 2)", "none that the run has")
         refused(replace(run, visits=(2,)), "obstacle 2 was visited, but never walked all around")
+
+
+class TestMovesOfATour:
+    def test_a_leave_at_the_start(self) -> None:
+        """From there the robot sets out anew, without a link to go back by."""
+        run = tour()
+        k = number(run, "backtrack")
+        back = run.events[k]
+        leave = replace(back, kind=EventKind.LEAVE, decided=None)
+        for more in ((leave,), (leave, back)):
+            events = (*run.events[: k + 1], *more, *run.events[k + 1 :])
+            refused(replace(run, events=events), f"event {k + 1} (leave) cannot follow event {k} (backtrack)")
+
+    def test_no_leave_where_the_robot_came_back(self) -> None:
+        """Back at the disc in the middle the robot is where it leaves for the disc beyond the first."""
+        shapes = [xa.Polygon([(x, y), (x + w, y), (x + w, y + w), (x, y + w)]) for x, y, w in SQUARES]
+        run = xa.sightseer(xa.Scene(shapes, start=(-1, 1)), 1)
+        k = number(run, "leave", 2)
+        assert (run.events[k - 1].kind, run.events[k].after) == ("backtrack", run.events[k - 1].after)
+        events = (*run.events[:k], *run.events[k + 1 :])
+        refused(replace(run, events=events), "(hit of obstacle 2) cannot follow")

@@ -17,10 +17,10 @@ MOVES = {
     EventKind.START: {EventKind.HIT, EventKind.STOP},
     EventKind.HIT: {EventKind.LEAVE, EventKind.STOP},
     EventKind.LEAVE: {EventKind.HIT, EventKind.BACKTRACK},
-    EventKind.BACKTRACK: {EventKind.LEAVE, EventKind.HIT, EventKind.STOP},
+    EventKind.BACKTRACK: {EventKind.LEAVE, EventKind.STOP},
     EventKind.STOP: set[EventKind](),
 }
-"""What the robot does, and what it can do next."""
+"""What the robot does, and what it can do next; back at S it begins anew."""
 
 
 def check_moves(run: SightseerRun, tracks: Tracks) -> None:
@@ -31,7 +31,7 @@ def check_moves(run: SightseerRun, tracks: Tracks) -> None:
     crossings: Counter[int] = Counter()
     depth = 0
     for before, event in pairwise(event for event in run.events if event.kind in MOVES):
-        if event.kind not in MOVES[before.kind]:
+        if event.kind not in MOVES[EventKind.START if stack == ["S"] else before.kind]:
             raise AuditError(f"{event_name(run, event)} cannot follow {event_name(run, before)}")
         _check_between(run, before, event)
         if event.kind is EventKind.HIT:
