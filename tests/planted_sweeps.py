@@ -58,7 +58,7 @@ def ladder() -> Run:
     return xa.seed_spreader(xa.load("m20-3"))
 
 
-MOVES = ("start", "hit", "cross", "leave", "divert", "return", "stop")
+MOVES = ("start", "hit", "cross", "leave", "backtrack", "divert", "return", "stop")
 
 
 def moves(run: Run) -> list[Event]:

@@ -6,9 +6,11 @@ from dataclasses import replace
 from functools import cache
 
 import pytest
+from planted_sweeps import resewn
 from test_audit import refused, with_event
 
 import exactacq as xa
+from exactacq.geometry.curves import Arc
 from exactacq.sensing.event import EventKind
 from exactacq.strategies.run import Run
 
@@ -62,3 +64,20 @@ class TestMovesOfATour:
         assert (run.events[k - 1].kind, run.events[k].after) == ("backtrack", run.events[k - 1].after)
         events = (*run.events[:k], *run.events[k + 1 :])
         refused(replace(run, events=events), "(hit of obstacle 2) cannot follow")
+
+    def test_another_way_round(self) -> None:
+        """From (-3, 0) to (-5, 0) clockwise, which is as far; and a lap before it goes the right way."""
+        lap, half = tour().path[4:6]
+        clockwise = replace(half, curve=Arc(half.start, half.end, half.curve.center, 1, ccw=False))
+        for way in ([clockwise], [lap, half]):
+            refused(resewn(tour(), 5, 6, *way), "(leave of obstacle 1) is not reached the shorter way")
+
+    def test_walks_on(self) -> None:
+        """Around the third disc once more, where nothing is left to be done."""
+        run = resewn(tour(), 8, 8, tour().path[7])
+        refused(with_event(run, number(run, "stop"), point=run.path[-1].end, after=9), "1 pieces after")
+
+    def test_returns_the_longer_way(self) -> None:
+        """A lap around the first disc before the way back."""
+        run = resewn(tour(), 2, 2, tour().path[1])
+        refused(run, "(leave of obstacle 0)")

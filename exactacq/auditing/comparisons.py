@@ -5,7 +5,7 @@ Places that are not rational are compared at `DIGITS` digits: there a deviation 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from math import ceil, log2
 from typing import NamedTuple, TypeAlias
 
@@ -88,6 +88,14 @@ def ball_of(curve: Curve, bits: int) -> arb:
 
 def ball_sum(curves: Sequence[Curve]) -> arb:
     return refined(lambda bits: sum((ball_of(curve, bits) for curve in curves), arb(0)))
+
+
+def is_shorter_way(walk: Sequence[Curve], whole: arb, senses: Collection[bool]) -> bool:
+    """Whether a walk along part of a loop is the shorter way, of two equal ones that in the loop's sense."""
+    walked = ball_sum(walk)
+    with workprec(BITS):
+        rest = whole - walked
+    return not walked > rest and (walked < rest or set(senses) <= {True})
 
 
 def agrees(length: Length, ball: arb) -> bool:

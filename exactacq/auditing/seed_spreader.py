@@ -15,12 +15,12 @@ from typing import Any
 from flint import arb, fmpq
 
 from exactacq.auditing.comparisons import (
-    BITS,
     AuditedBody,
     Tracks,
     ball_sum,
     event_name,
     is_close,
+    is_shorter_way,
     place_text,
     rational_on,
     same,
@@ -36,7 +36,6 @@ from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.intersections import contacts
 from exactacq.geometry.nearest_points import nearest_points
 from exactacq.geometry.points import Point
-from exactacq.numbers.precision import workprec
 from exactacq.numbers.real import Real
 from exactacq.progress import Meter
 from exactacq.sensing.event import Ending, Event, EventKind, Reason
@@ -246,12 +245,8 @@ class Replay:
             self.here, self.done = piece.end, k + 1
         if len(senses) > 1 or not same(self.here, goal):
             raise AuditError(f"{self.name(event)} is not reached by one walk to {place_text(goal)}")
-        if not (self.bodies[i].closed and senses):
-            return
-        walked, whole = ball_sum([p.curve for p in self.run.path[first : self.done]]), self._perimeters[i]
-        with workprec(BITS):
-            rest = whole - walked
-        if walked > rest or (not walked < rest and senses != {True}):
+        walk = [piece.curve for piece in self.run.path[first : self.done]]
+        if self.bodies[i].closed and not is_shorter_way(walk, self._perimeters[i], senses):
             raise AuditError(f"{self.name(event)} is not reached the shorter way")
 
     # -- diversions --------------------------------------------------------------------------------

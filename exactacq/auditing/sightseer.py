@@ -5,7 +5,15 @@ from __future__ import annotations
 from collections import Counter
 from itertools import pairwise
 
-from exactacq.auditing.comparisons import Tracks, agrees, ball_sum, event_name, place_text, same
+from exactacq.auditing.comparisons import (
+    Tracks,
+    agrees,
+    ball_sum,
+    event_name,
+    is_shorter_way,
+    place_text,
+    same,
+)
 from exactacq.errors import AuditError
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.points import Point
@@ -29,7 +37,7 @@ def check_moves(run: SightseerRun, tracks: Tracks) -> None:
     stack: list[int | str] = ["S"]
     visits: list[int] = []
     crossings: Counter[int] = Counter()
-    depth = 0
+    depth, done = 0, 0
     for before, event in pairwise(event for event in run.events if event.kind in MOVES):
         if event.kind not in MOVES[EventKind.START if stack == ["S"] else before.kind]:
             raise AuditError(f"{event_name(run, event)} cannot follow {event_name(run, before)}")
@@ -42,13 +50,16 @@ def check_moves(run: SightseerRun, tracks: Tracks) -> None:
             stack.append(link.target)
             visits.append(link.target)
             crossings[link.target] += 1
-            _check_loop(run, tracks, event)
+            done = _check_loop(run, tracks, event)
         elif event.kind is EventKind.BACKTRACK:
             link = links[int(stack.pop())]
             _check_crossing(run, before, event, (link.hit, link.leave))
             crossings[link.target] += 1
+            done = event.after
         if (event.obstacle if event.obstacle is not None else "S") != stack[-1]:
             raise AuditError(f"{event_name(run, event)} happens at {stack[-1]}")
+        if event.kind in (EventKind.LEAVE, EventKind.STOP):
+            _check_walk(run, tracks, event, done)
         depth = max(depth, len(stack) - 1)
     if list(run.visits) != visits:
         raise AuditError(f"visits are {list(run.visits)}, but the hits were {visits}")
@@ -85,19 +96,35 @@ def _check_crossing(run: Run, before: Event, event: Event, ends: tuple[Point, Po
             )
 
 
-def _check_loop(run: Run, tracks: Tracks, hit: Event) -> None:
-    """After its hit the whole boundary is walked in one go: in one sense, and as long as it is."""
+def _check_walk(run: Run, tracks: Tracks, event: Event, done: int) -> None:
+    """From the end of its loop, or where it came back, the robot walks the shorter way, or it stops."""
+    walk = [piece.curve for piece in run.path[done : event.after]]
+    senses = {track.forward for track in tracks[done : event.after] if track is not None}
+    if walk and event.kind is EventKind.STOP:
+        raise AuditError(f"{event_name(run, event)} comes {len(walk)} pieces after the robot was done")
+    if event.obstacle is not None and walk:
+        whole = ball_sum(run.scene.obstacles[event.obstacle].edges)
+        if len(senses) > 1 or not is_shorter_way(walk, whole, senses):
+            raise AuditError(f"{event_name(run, event)} is not reached the shorter way")
+
+
+def _check_loop(run: Run, tracks: Tracks, hit: Event) -> int:
+    """After its hit the whole boundary is walked in one go: in one sense, and as long as it is.
+
+    Returns after how many pieces that is done.
+    """
     assert hit.obstacle is not None
     perimeter = run.scene.obstacles[hit.obstacle].perimeter
     walked: list[Length] = []
     senses = set()
-    for piece, track in zip(run.path[hit.after :], tracks[hit.after :], strict=True):
+    for k in range(hit.after, len(run.path)):
+        piece, track = run.path[k], tracks[k]
         if track is None or piece.obstacle != hit.obstacle:
             break
         walked.append(piece.length)
         senses.add(track.forward)
         if len(senses) == 1 and same(piece.end, hit.point) and Length.sum(walked) == perimeter:
-            return
+            return k + 1
     raise AuditError(f"obstacle {hit.obstacle} was not walked all around after {event_name(run, hit)}")
 
 
