@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cache
+from typing import Any
 
 import pytest
-from planted_sweeps import resewn
+from planted_sweeps import around, resewn
 from test_audit import refused, with_event
 
 import exactacq as xa
 from exactacq.geometry.curves import Arc
-from exactacq.sensing.event import EventKind
+from exactacq.sensing.event import Ending, EventKind, Occasion, Reason
 from exactacq.strategies.run import Run
 
 SQUARES = ((0, 0, 2), (3, 1, 1), (1, 3, 1))
@@ -81,3 +82,38 @@ class TestMovesOfATour:
         """A lap around the first disc before the way back."""
         run = resewn(tour(), 2, 2, tour().path[1])
         refused(run, "(leave of obstacle 0)")
+
+
+class TestWords:
+    """The occasion, the other end of a link, the reason or the ending that an event tells."""
+
+    @pytest.mark.parametrize(
+        ("kind", "changes"),
+        [
+            ("hit", {"other": 1}),
+            ("hit", {"occasion": Occasion.BACKTRACK}),
+            ("leave", {"other": 1}),
+            ("backtrack", {"other": "S"}),
+            ("backtrack", {"occasion": None}),
+            ("start", {"occasion": Occasion.ADVANCE}),
+            ("sight", {"reason": Reason.RANGE}),
+            ("leave", {"ending": Ending.ALL_VISITED}),
+        ],
+    )
+    def test_of_a_tour(self, kind: str, changes: dict[str, Any]) -> None:
+        k = number(tour(), kind)
+        refused(with_event(tour(), k, **changes), f"event {k} ({kind}")
+
+    @pytest.mark.parametrize(
+        ("kind", "changes"),
+        [
+            ("hit", {"occasion": Occasion.DIVERSION}),
+            ("hit", {"other": 0}),
+            ("leave", {"occasion": Occasion.WAY_BACK}),
+            ("divert", {"occasion": Occasion.WAY_OUT}),
+            ("stop", {"obstacle": 0}),
+        ],
+    )
+    def test_of_a_sweep(self, kind: str, changes: dict[str, Any]) -> None:
+        k = number(around(), kind)
+        refused(with_event(around(), k, **changes), f"event {k} ({kind}")

@@ -30,6 +30,17 @@ FOLLOWS: dict[EventKind, tuple[EventKind | None, ...]] = {
     EventKind.ACQUIRE: (EventKind.SIGHT, EventKind.REGAIN, EventKind.LOSE),
 }
 """What the robot sees of an obstacle, and what of it can come just before."""
+DETAILS: dict[EventKind, tuple[str, ...]] = {
+    EventKind.HIT: ("occasion", "other"),
+    EventKind.CROSS: ("occasion",),
+    EventKind.LEAVE: ("occasion", "other"),
+    EventKind.BACKTRACK: ("occasion", "other"),
+    EventKind.DIVERT: ("reason",),
+    EventKind.RETURN: ("reason",),
+    EventKind.LOSE: ("reason",),
+    EventKind.STOP: ("ending",),
+}
+"""Which of its words an event may have; those that it has are checked where its kind is."""
 
 
 def _place(run: Run, after: int) -> Point:
@@ -51,6 +62,9 @@ def check_events(run: Run, rng: Random, moves: Collection[EventKind]) -> None:
             raise AuditError(f"{event_name(run, event)} is about none that the run has")
         if not _is_at(run, event):
             raise AuditError(f"{event_name(run, event)} is not on the path: {place_text(event.point)}")
+        for word in ("occasion", "other", "reason", "ending"):
+            if getattr(event, word) is not None and word not in DETAILS.get(event.kind, ()):
+                raise AuditError(f"{event_name(run, event)} has no {word}, but tells one: {event.note!r}")
         places.append(event_position(run, event))
     for (before, (k, s)), (event, (m, t)) in pairwise(zip(run.events, places, strict=True)):
         if m < k or (m == k and t < s):

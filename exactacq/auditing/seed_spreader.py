@@ -38,7 +38,7 @@ from exactacq.geometry.nearest_points import nearest_points
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
 from exactacq.progress import Meter
-from exactacq.sensing.event import Ending, Event, EventKind, Reason
+from exactacq.sensing.event import Ending, Event, EventKind, Occasion, Reason
 from exactacq.strategies.run import Diversion, SeedSpreaderRun
 
 MOVES = tuple(map(EventKind, ("start", "hit", "cross", "leave", "divert", "return", "stop")))
@@ -114,17 +114,20 @@ class Replay:
             self._turn()
         if stop.kind is not EventKind.STOP or stop.after != self.done or self.next != len(self.moves) - 1:
             raise AuditError(f"{self.name(stop)} is no stop at {place_text(self.here)}")
-        if stop.ending is not (Ending.TRAPPED if trapped else Ending.END_OF_M_LINE):
+        due = (Ending.TRAPPED, self.encounters[-1]) if trapped else (Ending.END_OF_M_LINE, None)
+        if (stop.ending, stop.obstacle) != due:
             raise AuditError(f"{self.name(stop)} is due to {stop.note!r}, but trapped is {trapped}")
 
-    def _take(self, kind: EventKind, obstacle: int) -> Event:
-        """The next move, which has to be of that kind, about that obstacle, and here."""
+    def _take(self, kind: EventKind, obstacle: int, occasion: Occasion | None = None) -> Event:
+        """The next move, which has to be of that kind, about that obstacle, on that occasion, and here."""
         event = self.upcoming
         if (event.kind, event.obstacle, event.after) != (kind, obstacle, self.done):
             raise AuditError(
                 f"{self.name(event)} comes after {event.after} pieces, but {kind} of obstacle {obstacle} "
                 f"is due after {self.done}"
             )
+        if (event.occasion, event.other) != (occasion, None):
+            raise AuditError(f"{self.name(event)} is due on the occasion {occasion}, not {event.note!r}")
         self.next += 1
         return event
 
@@ -174,7 +177,7 @@ class Replay:
         while self.piece < mark.piece:
             self._turn()
         met = self._is_acquired(mark.owner, event)
-        self._take(EventKind.CROSS if met else EventKind.HIT, mark.owner)
+        self._take(EventKind.CROSS if met else EventKind.HIT, mark.owner, Occasion.M_LINE)
         self.encounters.append(mark.owner)
         if met:
             self.again.append(mark.owner)
@@ -190,7 +193,7 @@ class Replay:
                 self._divert(leave)
             self._check_hop(leave)
         self._walk(mark.owner, leave.point, self.upcoming)
-        self._take(EventKind.LEAVE, mark.owner)
+        self._take(EventKind.LEAVE, mark.owner, Occasion.M_LINE)
         self.at, self.piece, self.ahead = leave.at, leave.piece, ends[0] + 1
         return True
 
@@ -275,7 +278,7 @@ class Replay:
             raise AuditError(f"diversion {self.diverted} did not reach {place_text(told.hit)}")
         self._circumnavigate(i, event)
         self._walk(i, told.hit, self.upcoming)
-        self._take(EventKind.LEAVE, i)
+        self._take(EventKind.LEAVE, i, Occasion.DIVERSION)
         # The way back is the way out: its places, made anew from the other end, would have other forms.
         way_back = [s.reversed() for s in reversed(out)]
         self._go(way_back if aim is told.hit else self._stretches(told.hit, leave), leave, None)
@@ -290,13 +293,13 @@ class Replay:
 
     def _go(self, stretches: Sequence[Stretch], goal: Point, aimed: int | None) -> None:
         """Go straight, around what blocks stretches of the way, to its end, or to the obstacle aimed at."""
-        done = Real(0)
+        done, occasion = Real(0), Occasion.WAY_BACK if aimed is None else Occasion.WAY_OUT
         while stretch := next((s for s in stretches if s.low >= done), None):
             self._step(stretch.begin)
             event, k = self.upcoming, self.field.owner(stretch.obstacle, stretch.begin)
             if k is None or not self.field.is_ashore(k, stretch.begin):
                 raise AuditError(f"{self.name(event)} is on a boundary that cannot be reached")
-            self._take(EventKind.HIT, k)
+            self._take(EventKind.HIT, k, occasion)
             if aimed is not None:
                 self.encounters.append(k)
             if not self._is_acquired(k, event):
@@ -307,11 +310,11 @@ class Replay:
             if not ends or not ends[-1].high > stretch.low:
                 raise AuditError(f"{self.name(event)}: the obstacle closes the way")
             self._walk(k, ends[-1].end, self.upcoming)
-            self._take(EventKind.LEAVE, k)
+            self._take(EventKind.LEAVE, k, occasion)
             done = ends[-1].high
         self._step(goal)
         if aimed is not None:
-            self._take(EventKind.HIT, aimed)
+            self._take(EventKind.HIT, aimed, Occasion.DIVERSION)
             self.encounters.append(aimed)
 
     def _is_left(self, stretch: Stretch, component: int) -> bool:

@@ -18,7 +18,7 @@ from exactacq.errors import AuditError
 from exactacq.geometry.curves import Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
-from exactacq.sensing.event import Ending, Event, EventKind
+from exactacq.sensing.event import Ending, Event, EventKind, Occasion
 from exactacq.strategies.run import Run, SightseerRun, TreeLink
 
 MOVES = {
@@ -47,6 +47,9 @@ def check_moves(run: SightseerRun, tracks: Tracks) -> None:
             if link is None or link.target in visits or link.source != stack[-1]:
                 raise AuditError(f"{event_name(run, event)} has no link from {stack[-1]} or is not the first")
             _check_crossing(run, before, event, (link.leave, link.hit))
+            _check_words(run, event, Occasion.ADVANCE, link.source)
+            if before.kind is EventKind.LEAVE:
+                _check_words(run, before, Occasion.ADVANCE, link.target)
             stack.append(link.target)
             visits.append(link.target)
             crossings[link.target] += 1
@@ -54,6 +57,8 @@ def check_moves(run: SightseerRun, tracks: Tracks) -> None:
         elif event.kind is EventKind.BACKTRACK:
             link = links[int(stack.pop())]
             _check_crossing(run, before, event, (link.hit, link.leave))
+            _check_words(run, event, Occasion.BACKTRACK, link.target)
+            _check_words(run, before, Occasion.BACKTRACK, link.source)
             crossings[link.target] += 1
             done = event.after
         if (event.obstacle if event.obstacle is not None else "S") != stack[-1]:
@@ -71,6 +76,12 @@ def check_moves(run: SightseerRun, tracks: Tracks) -> None:
             raise AuditError(f"{link_name(link)} was walked {times} times, not {link.traversals}")
     if run.stack_depth != depth:
         raise AuditError(f"the stack was {depth} deep, not {run.stack_depth}")
+
+
+def _check_words(run: Run, event: Event, occasion: Occasion, other: int | str) -> None:
+    """A move at one end of a link says on what occasion it is made, and where the other end is."""
+    if (event.occasion, event.other) != (occasion, other):
+        raise AuditError(f"{event_name(run, event)} is {occasion} by a link with {other}, not {event.note!r}")
 
 
 def _check_between(run: Run, before: Event, event: Event) -> None:
