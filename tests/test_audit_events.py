@@ -117,3 +117,9 @@ class TestWords:
     def test_of_a_sweep(self, kind: str, changes: dict[str, Any]) -> None:
         k = number(around(), kind)
         refused(with_event(around(), k, **changes), f"event {k} ({kind}")
+
+    def test_of_an_own_strategy(self) -> None:
+        """What goes to an obstacle does not come back to it."""
+        run = xa.explore(xa.load("circles"), "nearest-frontier")
+        k = number(run, "hit")
+        refused(with_event(run, k, kind=EventKind.BACKTRACK), f"event {k} (backtrack of obstacle 0)")

@@ -14,7 +14,7 @@ from flint import arb
 from exactacq.auditing.comparisons import BITS, AuditedBody, Tracks, event_name, passes, same
 from exactacq.errors import AuditError
 from exactacq.numbers.precision import workprec
-from exactacq.sensing.event import Ending, Event, EventKind
+from exactacq.sensing.event import Ending, Event, EventKind, Occasion
 from exactacq.strategies.run import OwnRun
 
 MOVES = (
@@ -54,7 +54,7 @@ def _then(run: OwnRun, bodies: Sequence[AuditedBody], event: Event, at: int | No
     told = event.obstacle
     is_right = {
         EventKind.HIT: told is not None and at in (None, told),
-        EventKind.BACKTRACK: at is None,
+        EventKind.BACKTRACK: at is None and event.occasion is Occasion.BACKTRACK,
         EventKind.LEAVE: told is not None and at == told,
         EventKind.DECIDE: at == told,
         EventKind.STOP: at == told,
