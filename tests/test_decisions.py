@@ -196,6 +196,9 @@ class TestSeedSpreader:
             (Rule.ABOUT_TO_BE_LOST, {"length": "5/2"}, "is not so far away"),
             (Rule.ABOUT_TO_BE_LOST, {"others": ((4, 9),)}, "obstacle 4 is not about to be lost"),
             (Rule.ABOUT_TO_BE_LOST, {"length": None}, "is not about to be lost"),
+            (Rule.ABOUT_TO_BE_LOST, {"rule": Rule.OWN}, "which the strategy does not have"),
+            (Rule.ABOUT_TO_BE_LOST, {"more": 1}, "counts 1 more"),
+            (Rule.GO_ON, {"chosen": "S"}, "chooses nothing"),
             (Rule.GO_ON, {"others": ()}, "as incomplete"),
             (Rule.GO_ON, {"more": 1}, "as incomplete"),
         ],
@@ -223,6 +226,16 @@ class TestSeedSpreader:
         with pytest.raises(AuditError) as caught:
             check_decisions(replace(run, events=(*run.events[:k], event, *run.events[k + 1 :])))
         assert words in str(caught.value)
+
+    @pytest.mark.parametrize("lie", [lambda size: -size, lambda size: size + Length.turns(1)])
+    def test_a_length_that_is_none(self, lie: Callable[[Length], Length]) -> None:
+        """Of what is compared with a distance its square is, and without its angles."""
+        run = gallery_run("figure4")
+        k = next(k for k, e in enumerate(run.events) if e.kind == "divert")
+        told = run.events[k].decision
+        event = replace(run.events[k], decided=replace(told, length=lie(told.length), others=()))
+        with pytest.raises(AuditError, match="is not so far away"):
+            xa.audit(replace(run, events=(*run.events[:k], event, *run.events[k + 1 :])), samples=0)
 
     def test_honest_sweeps_pass(self) -> None:
         for run in sweeps()[:3]:
@@ -523,7 +536,9 @@ class TestLies:
             (0, {"after": 1}, "not where its move begins"),
             (1, {"after": 0}, "not where its move begins"),
             (1, {"others": ((0, "5.9"),)}, "were visited by then"),
-            (0, {"rule": Rule.BACK}, "does not tell the radius"),
+            (0, {"rule": Rule.BACK}, "is for a backtrack"),
+            (0, {"rule": Rule.OWN}, "which the strategy does not have"),
+            (0, {"more": 1}, "counts 1 more"),
         ],
     )
     def test_are_found(self, number: int, changes: dict[str, object], words: str) -> None:
@@ -535,7 +550,8 @@ class TestLies:
     @pytest.mark.parametrize(
         ("changes", "words"),
         [
-            ({"chosen": 0, "others": ()}, "go back to 0"),
+            ({"chosen": 0, "others": ()}, "for a backtrack of 0"),
+            ({"others": ((2, 9),)}, "tells lengths of others"),
             ({"length": 9}, "the radius"),
             ({"others": (1,)}, "as unvisited"),
             ({"others": ()}, "as unvisited"),
@@ -549,6 +565,21 @@ class TestLies:
         with pytest.raises(AuditError) as caught:
             check_decisions(replace(run, events=(*run.events[:k], event, *run.events[k + 1 :])))
         assert words in str(caught.value)
+
+    def test_of_another_move(self) -> None:
+        """The robot goes back where it says that it goes on, to what it comes to later; and on, not back."""
+        run = xa.sightseer(xa.Scene([xa.Circle((x, 0), 1) for x in (4, -4, 9)], start=(0, 0)), 5)
+        told = [event for event in decided(run) if event.kind != "start"]
+        assert [event.decision.chosen for event in told] == [2, 0, "S", 1]
+        lies = {
+            2: {"rule": Rule.NEAREST, "chosen": 1, "length": Length(3), "others": ()},
+            3: {"rule": Rule.BACK, "chosen": "S", "length": Length(5), "others": ((1, None),)},
+        }
+        for n, lie in lies.items():
+            k = next(k for k, event in enumerate(run.events) if event is told[n])
+            event = replace(run.events[k], decided=replace(told[n].decision, **lie))
+            with pytest.raises(AuditError, match="but the robot goes to"):
+                check_decisions(replace(run, events=(*run.events[:k], event, *run.events[k + 1 :])))
 
     def test_what_was_not_seen_by_then(self) -> None:
         run = gallery_run("m8")

@@ -17,6 +17,12 @@ from exactacq.sensing.decision import Candidate, Decision, Rule
 from exactacq.sensing.event import Event, EventKind
 from exactacq.strategies.run import Run, SightseerRun
 
+RULES = {
+    "sightseer": (Rule.NEAREST, Rule.BACK),
+    "seed-spreader": (Rule.ABOUT_TO_BE_LOST, Rule.GO_ON),
+}
+"""By which rules the paper's strategies decide."""
+
 
 def check_decisions(run: Run) -> None:
     """Decisions are made where their moves begin, and what they say of obstacles and lengths is so."""
@@ -43,6 +49,8 @@ class _Told:
     def check(self) -> None:
         """What all decisions have in common, then what its rule says."""
         told, event = self.decision, self.event
+        if told.rule not in RULES.get(self.run.strategy, Rule):
+            self._refuse(f"is made by the rule {told.rule.value!r}, which the strategy does not have")
         walked = {piece.obstacle for piece in self.run.path[max(told.after, 0) : event.after]}
         if not 0 <= told.after <= event.after or not walked <= {event.obstacle} - {None}:
             self._refuse(f"is made after {told.after} pieces, not where its move begins")
@@ -52,6 +60,8 @@ class _Told:
             self._refuse(f"names obstacles {sorted(set(every) - self.seen)}, which were not seen by then")
         if len(set(every)) < len(every):
             self._refuse("names an obstacle twice")
+        if told.more and told.rule in (Rule.NEAREST, Rule.ABOUT_TO_BE_LOST):
+            self._refuse(f"counts {told.more} more, by a rule that counts none")
         if told.rule is Rule.NEAREST:
             self._check_nearest()
         elif told.rule is Rule.BACK:
@@ -59,6 +69,8 @@ class _Told:
         elif told.rule is Rule.ABOUT_TO_BE_LOST:
             self._check_loss(every)
         elif told.rule is Rule.GO_ON:
+            if (told.chosen, told.length, told.after) != (None, None, event.after):
+                self._refuse("is to go on from here, and chooses nothing")
             self._same(others, self.incomplete, "incomplete")
 
     def _check_nearest(self) -> None:
@@ -76,13 +88,11 @@ class _Told:
         way = [] if size.sign() == 0 else [piece.curve for piece in self.run.path[after : after + 1]]
         if way and not agrees(size, ball_of(way[0], BITS)):
             self._refuse(f"is for a link of {size.decimal(20)}..., but the robot goes another way")
-        if self._next(EventKind.HIT) != told.chosen:
-            self._refuse(f"is for obstacle {told.chosen}, but the robot goes to {self._next(EventKind.HIT)}")
+        self._check_aim(EventKind.HIT)
 
     def _check_back(self, others: list[int]) -> None:
-        told, target = self.decision, self._next(EventKind.BACKTRACK)
-        if told.chosen != ("S" if target is None else target):
-            self._refuse(f"is to go back to {told.chosen}, but the robot goes to {target}")
+        told = self.decision
+        self._check_aim(EventKind.BACKTRACK)
         if told.length != self.run.radius:
             self._refuse("does not tell the radius")
         if isinstance(self.run, SightseerRun):
@@ -120,12 +130,19 @@ class _Told:
         hits = (e for e in self.run.events if e.kind is EventKind.HIT and e.after < self.decision.after)
         return {e.obstacle for e in hits if e.obstacle is not None}
 
-    def _next(self, kind: EventKind) -> int | None:
-        return next((event.obstacle for event in self.later if event.kind is kind), None)
+    def _check_aim(self, kind: EventKind) -> None:
+        """The robot goes to the chosen one: its next move is of that kind, there."""
+        aims = (e for e in self.later if e.kind in (EventKind.HIT, EventKind.BACKTRACK))
+        kinds = ((e.kind, "S" if e.obstacle is None else e.obstacle) for e in aims)
+        if (aim := next(kinds, None)) != (kind, self.decision.chosen):
+            where = "stays" if aim is None else f"goes to {aim[1]} ({aim[0]})"
+            self._refuse(f"is for a {kind} of {self.decision.chosen}, but the robot {where}")
 
     def _same(self, told: list[int], true: Collection[int], what: str) -> None:
         """Some of the obstacles of which it is true are told, and the number of the others."""
         more = self.decision.more
+        if any(other.length is not None for other in self.decision.others):
+            self._refuse("tells lengths of others, which were not compared")
         if not set(told) <= set(true) or len(told) + more != len(true):
             self._refuse(f"names obstacles {told} and {more} more as {what}, but {sorted(true)} were")
 

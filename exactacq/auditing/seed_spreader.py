@@ -453,7 +453,8 @@ class Replay:
             known = self._known(chart, k)
             near = min((p - self.here).norm_sq() for curve in known for p in _near_points(curve, self.here))
             order = (length.algebraic**2).compare(near)
-            if order < 0 or (order > 0 and self.run.target == "known"):
+            is_size = length.is_algebraic and length.sign() >= 0
+            if not is_size or order < 0 or (order > 0 and self.run.target == "known"):
                 raise AuditError(f"the decision at {self.name(event)}: obstacle {k} is not so far away")
 
     def _check_unseen_later(self, name: str, chart: Any, i: int, leap: CrossingPoint | None) -> None:
