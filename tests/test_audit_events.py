@@ -11,6 +11,7 @@ from planted_sweeps import around, resewn
 from test_audit import refused, with_event
 
 import exactacq as xa
+from exactacq.auditing.audit import audit
 from exactacq.geometry.curves import Arc
 from exactacq.sensing.event import Ending, EventKind, Occasion, Reason
 from exactacq.strategies.run import Run
@@ -123,3 +124,13 @@ class TestWords:
         run = xa.explore(xa.load("circles"), "nearest-frontier")
         k = number(run, "hit")
         refused(with_event(run, k, kind=EventKind.BACKTRACK), f"event {k} (backtrack of obstacle 0)")
+
+
+def test_ratios_are_as_close_as_floats_are() -> None:
+    """The path is 10^5 times as long as what it bounds, and its last digits are not 10^-12."""
+    box = xa.Polygon([(10**6, 0), (10**6 + 1, 0), (10**6, 1)])
+    run = xa.sightseer(xa.Scene([box], start=(0, 0)), 10**7)
+    audit(run, samples=2)
+    bound = run.bounds[0]
+    wrong = replace(bound, ratio=bound.ratio * (1 + 1e-11))
+    refused(replace(run, bounds=(wrong, *run.bounds[1:])), "bound (1) has the ratio")
