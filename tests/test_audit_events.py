@@ -8,11 +8,12 @@ from typing import Any
 
 import pytest
 from planted_sweeps import around, resewn
-from test_audit import refused, with_event
+from test_audit import Chart, lying, refused, with_event
 
 import exactacq as xa
 from exactacq.auditing.audit import audit
 from exactacq.geometry.curves import Arc
+from exactacq.geometry.points import Point
 from exactacq.sensing.event import Ending, EventKind, Occasion, Reason
 from exactacq.strategies.run import Run
 
@@ -127,10 +128,39 @@ class TestWords:
 
 
 def test_ratios_are_as_close_as_floats_are() -> None:
-    """The path is 10^5 times as long as what it bounds, and its last digits are not 10^-12."""
+    """The path is far longer than its bound: the last digit of the ratio is more than 10^-12."""
     box = xa.Polygon([(10**6, 0), (10**6 + 1, 0), (10**6, 1)])
     run = xa.sightseer(xa.Scene([box], start=(0, 0)), 10**7)
     audit(run, samples=2)
     bound = run.bounds[0]
     wrong = replace(bound, ratio=bound.ratio * (1 + 1e-11))
     refused(replace(run, bounds=(wrong, *run.bounds[1:])), "bound (1) has the ratio")
+
+
+class TestPlaces:
+    """Where something comes into sight, goes out of it, or is known as a whole."""
+
+    @pytest.mark.parametrize("changes", [{"after": 2, "inside": False}, {"point": Point("17/5", "4/5")}])
+    def test_late_to_be_known(self, changes: dict[str, Any]) -> None:
+        """All of the first disc is known on the way around it, and said to be so at its end, or later on."""
+        k = number(tour(), "acquire")
+        changes = {"point": tour().path[1].end, **changes}
+        refused(with_event(tour(), k, **changes), f"event {k} (acquire of obstacle 0) is late")
+
+    @pytest.mark.parametrize("shift", ["1e-9", "-1e-9"])
+    def test_lost_beside_the_place(self, shift: str) -> None:
+        """The second disc is out of range from (2, 0) on."""
+        k = number(tour(), "lose")
+        assert tour().events[k].point == Point(2, 0)
+        words = "out of sight" if shift.startswith("-") else "in sight"
+        refused(with_event(tour(), k, point=Point(2 + xa.Real(shift), 0)), f"obstacle 1 is not {words} from")
+
+    def test_a_frontier_where_nothing_ends(self) -> None:
+        class Frayed(Chart):
+            @property
+            def frontier(self) -> tuple[tuple[int, Point], ...]:
+                return (*super().frontier, (0, Point(2, "1/7")))
+
+        refused(
+            lying(lambda rows, after: rows, Frayed), "(2, 0.142857142857143) of obstacle 0 is in the frontier"
+        )

@@ -90,6 +90,7 @@ def audit(run: Run, *, samples: int = 64, seed: int = 0, progress: Progress | No
     knowledge.check_maps()
     meter.close()
     knowledge.check_targets(samples)
+    knowledge.check_news()
     meter.close()
     knowledge.check_in_sight(samples)
     meter.close()

@@ -113,6 +113,35 @@ class Knowledge:
                 raise AuditError(f"{name}: seen obstacles are {list(chart.seen)}")
             self.meter.add()
 
+    def check_news(self) -> None:
+        """Maps know what events tell: nothing of an obstacle before its sight, all from its acquire on.
+
+        Asked in the maps at hand, of each event at the end of the piece before, and of some just before them.
+        """
+        for name, after, inside, chart in self.moments:
+            for kind, claimed in ((EventKind.SIGHT, chart.seen), (EventKind.ACQUIRE, chart.acquired)):
+                told = sorted(
+                    i for (k, i), e in self.events.items() if k is kind and self._is_by(e, after, inside)
+                )
+                if sorted(claimed) != told:
+                    raise AuditError(
+                        f"{name}: events of {kind} tell of obstacles {told}, not {list(claimed)}"
+                    )
+        near = self.rng.sample(list(self.events), min(MOMENTS // 2, len(self.events)))
+        for (kind, i), event in self.events.items():
+            after = event.after if event.inside else event.after - 1
+            if after < 0:
+                continue
+            place = self._beside_on(after, event.point, -ASIDE) if (kind, i) in near else None
+            if place is not None and self._is_by(event, after, place):
+                place = None
+            at = self.run.path[after].start if place is None else place
+            moment = Event(EventKind.MOMENT, at, None, after, self.run.path, inside=place is not None)
+            name = f"the map before {event_name(self.run, event)}"
+            state = self._check_parts(name, self.run.map_at(moment), self.bodies[i])
+            if state == "acquired" or (state == "incomplete" and kind is EventKind.SIGHT):
+                raise AuditError(f"{event_name(self.run, event)} is late: at {place_text(at)} it is {state}")
+
     def _check_parts(self, name: str, chart: Any, body: AuditedBody) -> str:
         """Parts of one obstacle are on their edges, in order and apart; returns what they make of it."""
         total, before = arb(0), (-1, arb(0))
@@ -145,7 +174,32 @@ class Knowledge:
         for end in ends:
             if not any(same(end, point) for point in frontier):
                 raise AuditError(f"{name}: {place_text(end)} of obstacle {i} is missing in the frontier")
+        for point in frontier:
+            if not any(same(end, point) for part in parts for end in (part.start, part.end)):
+                raise AuditError(
+                    f"{name}: {place_text(point)} of obstacle {i} is in the frontier, but no end"
+                )
         return "incomplete" if parts else "unseen"
+
+    def _is_by(self, event: Event, after: int, inside: Point | None) -> bool:
+        """Whether an event is not beyond so many pieces, and a place inside the next one."""
+        here = arb(0)
+        if inside is not None:
+            curve, point = self.run.path[after].curve, inside
+            here = refined(lambda bits: ball_to(curve, point, bits))
+        whole, way = event_position(self.run, event)
+        return whole < after or (whole == after and not way > here)
+
+    def _beside_on(self, k: int, point: Point, shift: fmpq) -> Point | None:
+        """A rational place inside piece k about *shift* beyond a point of it, None if none is at hand."""
+        curve, track = self.run.path[k].curve, self.tracks[k]
+        if track is not None:
+            place = point_near(self.world.edges[track.edge], point, shift if track.forward else -shift)
+            return place if place is not None and curve.contains(place) else None
+        assert isinstance(curve, Segment)
+        along = (point - curve.start).dot(curve.direction) / curve.direction.norm_sq()
+        share = rational(float(along)) + shift / rational(float(curve.length))
+        return rational_on(curve, share) if 0 < share < 1 else None
 
     def _size(self, body: AuditedBody, k: int) -> arb:
         """The length of an edge, which many maps know."""
@@ -189,11 +243,10 @@ class Knowledge:
         """A place on piece k shortly before a point of it, or None if that is not on the piece."""
         if k < 0:
             return None
-        curve, track = self.run.path[k].curve, self.tracks[k]
+        curve = self.run.path[k].curve
         if isinstance(curve, Segment):
             return curve.part(curve.start, point).point(1 - ASIDE)
-        assert track is not None
-        place = point_near(self.world.edges[track.edge], point, -ASIDE if track.forward else ASIDE)
+        place = self._beside_on(k, point, -ASIDE)
         # Shortly before a point close to the start of a full circle is its end.
         return place if place is not None and curve.part(curve.start, point).contains(place) else None
 
@@ -243,7 +296,7 @@ class Knowledge:
                     yield i, place
 
     def check_in_sight(self, samples: int) -> None:
-        """At sampled places between events, obstacles are in sight if and only if the events say so."""
+        """At sampled places, some beside events, obstacles are in sight if and only if the events say so."""
         lookout = Viewpoints(
             self.world,
             self.run.radius,
@@ -251,14 +304,18 @@ class Knowledge:
             [e for body in self.bodies for e in body.edges],
         )
         firsts = [0, *accumulate(len(body.curves) for body in self.bodies)]
-        for _ in range(samples):
+        sensed = [event for event in self.run.events if event.kind in SENSED]
+        beside = self.rng.sample(sensed, min(samples // 4, len(sensed)))
+        places = [place for event in beside for place in self._around(event)]
+        places += [(self._anywhere(), None) for _ in range(samples - len(places))]
+        for place, wanted in places:
             self.meter.add()
-            place = self._anywhere()
             if place is None:
                 continue
             k, point = place
             states = self._states(k, point)
             some = self.rng.sample(sorted(states), min(3, len(states)))
+            some += [wanted] if wanted in states and wanted not in some else []
             seeing = lookout.any_sees(point, [range(*firsts[i : i + 2]) for i in some])
             for i, sees in zip(some, seeing, strict=True):
                 if sees != states[i]:
@@ -266,6 +323,13 @@ class Knowledge:
                     raise AuditError(
                         f"obstacle {i} is not {claim} from {place_text(point)} on piece {k}, as events say"
                     )
+
+    def _around(self, event: Event) -> Iterator[tuple[tuple[int, Point], int | None]]:
+        """Pieces and rational places on them shortly before and after an event, and its obstacle."""
+        for k, shift in ((event.after if event.inside else event.after - 1, -ASIDE), (event.after, ASIDE)):
+            place = self._beside_on(k, event.point, shift) if 0 <= k < len(self.run.path) else None
+            if place is not None:
+                yield (k, place), event.obstacle
 
     def _anywhere(self) -> tuple[int, Point] | None:
         """A random piece and a rational point on it, None if there is none at hand."""
