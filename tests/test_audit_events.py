@@ -7,7 +7,8 @@ from functools import cache
 from typing import Any
 
 import pytest
-from planted_sweeps import around, resewn
+from planted_sweeps import around, diverted, hasty, moves, resewn, straight, with_sights
+from sweeps import rectangle
 from test_audit import Chart, lying, refused, with_event
 
 import exactacq as xa
@@ -15,6 +16,7 @@ from exactacq.auditing.audit import audit
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.points import Point
 from exactacq.sensing.event import Ending, EventKind, Occasion, Reason
+from exactacq.sensing.path import Path
 from exactacq.strategies.run import Run
 
 SQUARES = ((0, 0, 2), (3, 1, 1), (1, 3, 1))
@@ -164,3 +166,42 @@ class TestPlaces:
         refused(
             lying(lambda rows, after: rows, Frayed), "(2, 0.142857142857143) of obstacle 0 is in the frontier"
         )
+
+
+class TestReasonsToDivert:
+    """Where it is that something is about to be lost, without a look ahead."""
+
+    def test_out_of_reach_and_in_reach_again(self) -> None:
+        """What is known of the wall behind the screen ends at both sides of a third one, so far apart.
+
+        Between them the robot is out of reach of both, and diverts though it will be in reach of the lower.
+        """
+        shapes = [
+            rectangle("3/2", "1/2", 2, 20),
+            rectangle("23/10", "1/5", "26/10", 23),
+            rectangle("1/2", 6, 1, 14),
+        ]
+        run = xa.seed_spreader(xa.Scene(shapes, terrain=xa.Terrain(6, 24)), 3, lookahead=False)
+        (diversion,) = run.diversions
+        assert (diversion.obstacle, diversion.reason) == (0, Reason.OUT_OF_REACH)
+        audit(run, samples=2)
+
+    def test_too_early(self) -> None:
+        """From (20, 53), where W is still in sight, by a straight way to (9, 52) and back."""
+        run, place = hasty(), (20, 53)
+        way = [*straight((20, 100), place, (9, 52)), *run.path[6:10], *straight((9, 52), place, (20, 0))]
+        path = Path((*run.path[:2], *way))
+        after = {"start": 0, "divert": 3, "hit": 4, "leave": 8, "return": 9, "stop": 10}
+        events = tuple(
+            replace(
+                event,
+                path=path,
+                after=after[event.kind],
+                point=Point(*place) if event.kind in ("divert", "return") else event.point,
+                decided=None,
+            )
+            for event in moves(run)
+        )
+        early = with_sights(replace(run, path=path, events=events, record=None))
+        early = diverted(early, leave=Point(*place), first=3, last=9)
+        refused(early, "(divert of obstacle 0) is due to 'out of sight', which is not so")

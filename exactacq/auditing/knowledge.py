@@ -76,7 +76,9 @@ class Knowledge:
         self.on = [None if track is None else track.edge for track in tracks]
         self.lookout = Viewpoints(world, run.radius, [piece.curve for piece in run.path], self.on)
         self.events = {
-            (e.kind, e.obstacle): e for e in run.events if e.kind in (EventKind.SIGHT, EventKind.ACQUIRE)
+            (event.kind, event.obstacle): event
+            for event in run.events
+            if event.kind in (EventKind.SIGHT, EventKind.ACQUIRE) and event.obstacle is not None
         }
         self.moments = [*self._at_events(), *self._between_events()]
         self.moments.append(_Instant("the final map", len(run.path), None, run.map))
@@ -306,7 +308,9 @@ class Knowledge:
         firsts = [0, *accumulate(len(body.curves) for body in self.bodies)]
         sensed = [event for event in self.run.events if event.kind in SENSED]
         beside = self.rng.sample(sensed, min(samples // 4, len(sensed)))
-        places = [place for event in beside for place in self._around(event)]
+        places: list[tuple[tuple[int, Point] | None, int | None]] = []
+        for event in beside:
+            places += self._around(event)
         places += [(self._anywhere(), None) for _ in range(samples - len(places))]
         for place, wanted in places:
             self.meter.add()

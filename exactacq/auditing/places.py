@@ -1,4 +1,4 @@
-"""Rational points of boundaries, which the audit looks at."""
+"""Points of curves: rational ones, which the audit looks at, and the nearest ones."""
 
 from __future__ import annotations
 
@@ -7,8 +7,11 @@ from math import atan2, pi, tan
 from flint import fmpq
 
 from exactacq.geometry.curves import Arc, Curve, Segment
+from exactacq.geometry.intersections import contacts
+from exactacq.geometry.nearest_points import nearest_points
 from exactacq.geometry.points import Point
 from exactacq.numbers.rationals import nearest_float, rational
+from exactacq.numbers.real import Real
 
 
 def point_at(edge: Curve, share: fmpq) -> Point | None:
@@ -41,3 +44,31 @@ def _turned(arc: Arc, angle: float) -> Point | None:
     radial = arc.start - arc.center
     point = arc.center + radial * cosine + radial.left() * sine
     return point if arc.contains(point) else None
+
+
+def near_points(curve: Curve | Point, place: Point) -> list[Point]:
+    """Points of a curve among which is one that is nearest to a place."""
+    if isinstance(curve, Point):
+        return [curve]
+    if isinstance(curve, Segment):
+        origin, along = curve.whole.start, curve.whole.direction
+        foot = origin + along * ((place - origin).dot(along) / along.norm_sq())
+        return [curve.start, curve.end, *([foot] if curve.contains(foot) else [])]
+    ray = place - curve.center
+    size = ray.norm_sq()
+    foot = curve.center + ray * (curve.radius / size.sqrt()) if size.sign() else curve.start
+    return [curve.start, curve.end, *([foot] if curve.contains(foot) else [])]
+
+
+def distances_sq(curve: Curve | Point, rest: Curve | Point) -> list[Real]:
+    """Squared distances between two curves or points, the least one among them.
+
+    They are not compared with each other: those of mirror images are equal in two forms.
+    """
+    if isinstance(curve, Point):
+        return [(p - curve).norm_sq() for p in near_points(rest, curve)]
+    if isinstance(rest, Point):
+        return distances_sq(rest, curve)
+    if contacts(curve, rest):
+        return [Real(0)]
+    return [pair.distance_sq for pair in nearest_points(curve, rest)]

@@ -15,6 +15,7 @@ from typing import Any
 from flint import arb, fmpq
 
 from exactacq.auditing.comparisons import (
+    BITS,
     AuditedBody,
     Tracks,
     ball_sum,
@@ -28,13 +29,12 @@ from exactacq.auditing.comparisons import (
 from exactacq.auditing.ground import CrossingPoint, Field, Stretch
 from exactacq.auditing.knowledge import MOMENTS, is_whole
 from exactacq.auditing.look_ahead import Answer, seen_later
+from exactacq.auditing.places import distances_sq, near_points
 from exactacq.auditing.rest_of_line import KnownPieces, Rest
 from exactacq.auditing.visibility import Viewpoints, visible
 from exactacq.cached import cached_property
 from exactacq.errors import AuditError
 from exactacq.geometry.curves import Arc, Curve, Segment
-from exactacq.geometry.intersections import contacts
-from exactacq.geometry.nearest_points import nearest_points
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
 from exactacq.progress import Meter
@@ -43,6 +43,8 @@ from exactacq.strategies.run import Diversion, SeedSpreaderRun
 
 MOVES = tuple(map(EventKind, ("start", "hit", "cross", "leave", "divert", "return", "stop")))
 """What the robot does on a sweep."""
+JUST = fmpq(1, 10**100)
+"""How far beyond a place it is asked what is in sight just after it: no edge is as short."""
 
 
 class Replay:
@@ -339,7 +341,7 @@ class Replay:
     def _aim(self, event: Event, told: Diversion, chart: Any) -> Point:
         """The point aimed at: the nearest known one, or the nearest visible one if there is one."""
         known = self._known(chart, told.obstacle)
-        points = [p for curve in known for p in _near_points(curve, self.here)]
+        points = [p for curve in known for p in near_points(curve, self.here)]
         sizes = [(p - self.here).norm_sq() for p in points]
         least = min(sizes)
         aims = [p for p, size in zip(points, sizes, strict=True) if size == least]
@@ -347,7 +349,7 @@ class Replay:
         if self.run.target == "visible" and not any(self._sees(p) for p in aims):
             if self._sees(hit) and chart.knows(told.obstacle, hit):
                 return hit
-            if self._is_visible(told.obstacle):
+            if self._is_visible(told.obstacle, self.here):
                 raise AuditError(f"{self.name(event)} does not aim at a visible point")
         if (hit - self.here).norm_sq() == least and chart.knows(told.obstacle, hit):
             return hit
@@ -359,13 +361,22 @@ class Replay:
     def _sees(self, point: Point) -> bool:
         return visible(self.field.world, self.run.radius, self.here, point)
 
-    def _is_visible(self, obstacle: int) -> bool | None:
+    def _is_visible(self, obstacle: int, place: Point) -> bool | None:
         """Whether something of an obstacle is in sight; None, for unknown, from an irrational place."""
-        if self.here.rational is None:
+        if place.rational is None:
             return None
         body = self.bodies[obstacle]
         lookout = Viewpoints(self.field.world, self.run.radius, body.curves, body.edges)
-        return lookout.first(self.here) is not None
+        return lookout.first(place) is not None
+
+    def _just_after(self) -> Point | None:
+        """A rational place of the line about `JUST` beyond this one; None where the line is blocked."""
+        if self.ahead < len(self.field.marks) and self.field.marks[self.ahead].at == self.at:
+            return None
+        mantissa, exponent = self.here.y.ball(BITS).mid().man_exp()
+        sense = (self._line_end.y - self.here.y).sign()
+        place = Point(self._line, fmpq(mantissa) * fmpq(2) ** int(exponent) + sense * JUST)
+        return place if (place.y - self.here.y).sign() == sense else None
 
     # -- what is about to be lost ------------------------------------------------------------------
 
@@ -405,12 +416,12 @@ class Replay:
                 found.append(part.start if single else edge.part(part.start, part.end))
         return found
 
-    def _beyond_reach(self, chart: Any, obstacle: int, start: Point) -> int:
-        """1 if all that is known of an obstacle is out of reach of the rest of the line, 0 if just not."""
-        rest = start if same(start, self._line_end) else Segment(start, self._line_end)
+    def _beyond_reach(self, chart: Any, obstacle: int, start: Point, stop: Point) -> int:
+        """1 if all that is known of an obstacle is out of reach of a part of the line, 0 if just not."""
+        rest = start if same(start, stop) else Segment(start, stop)
         square, order = self.run.radius**2, 1
         for curve in self._known(chart, obstacle):
-            for size in _distances_sq(curve, rest):
+            for size in distances_sq(curve, rest):
                 order = min(order, size.compare(square))
                 if order < 0:
                     return order
@@ -422,16 +433,19 @@ class Replay:
         i, reason, name = event.obstacle, event.reason, self.name(event)
         over = leap is not None and leap.piece > self.piece
         onward = self.here if leap is None or over else leap.point
+        stop = self._line_end if self.run.lookahead or reason is Reason.OVERDUE else onward
         if reason is Reason.LINE_ENDS:
             is_due = over or self.at == self.field.bases[self.piece + 1]
         elif over:
             is_due = False
         elif reason is Reason.OUT_OF_REACH and leap is None:
-            is_due = self._beyond_reach(chart, i, onward) == 0
+            is_due = all(self._beyond_reach(chart, i, onward, end) == 0 for end in (onward, stop))
         elif reason is Reason.OUT_OF_REACH or (reason is Reason.OVERDUE and leap is None):
-            is_due = self._beyond_reach(chart, i, onward) > 0
+            is_due = self._beyond_reach(chart, i, onward, stop) > 0
         elif reason is Reason.OUT_OF_SIGHT:
-            is_due = self._is_visible(i) is not False
+            after = self._just_after() if leap is None else None
+            is_due = self._is_visible(i, self.here) is not False
+            is_due &= after is None or not self._is_visible(i, after)
             if self.run.lookahead or leap is not None:
                 self._check_unseen_later(name, chart, i, leap)
         else:
@@ -451,7 +465,7 @@ class Replay:
             if not isinstance(k, int) or length is None or k not in stakes:
                 raise AuditError(f"the decision at {self.name(event)}: obstacle {k} is not about to be lost")
             known = self._known(chart, k)
-            near = min((p - self.here).norm_sq() for curve in known for p in _near_points(curve, self.here))
+            near = min((p - self.here).norm_sq() for curve in known for p in near_points(curve, self.here))
             order = (length.algebraic**2).compare(near)
             is_size = length.is_algebraic and length.sign() >= 0
             if not is_size or order < 0 or (order > 0 and self.run.target == "known"):
@@ -481,7 +495,7 @@ class Replay:
     def _check_rest(self, chart: Any, start: Point, where: str) -> None:
         """Obstacles at stake are in reach of the line from a place on."""
         for k in self._at_stake(chart):
-            if self._beyond_reach(chart, k, start) > 0:
+            if self._beyond_reach(chart, k, start, self._line_end) > 0:
                 raise AuditError(
                     f"obstacle {k} is out of reach {where} at {place_text(start)}, without a diversion"
                 )
@@ -557,31 +571,3 @@ class Replay:
                 raise AuditError(
                     f"obstacle {k} is lost where the line ends, before {place_text(leave.point)}"
                 )
-
-
-def _near_points(curve: Curve | Point, place: Point) -> list[Point]:
-    """Points of a curve among which is one that is nearest to a place."""
-    if isinstance(curve, Point):
-        return [curve]
-    if isinstance(curve, Segment):
-        origin, along = curve.whole.start, curve.whole.direction
-        foot = origin + along * ((place - origin).dot(along) / along.norm_sq())
-        return [curve.start, curve.end, *([foot] if curve.contains(foot) else [])]
-    ray = place - curve.center
-    size = ray.norm_sq()
-    foot = curve.center + ray * (curve.radius / size.sqrt()) if size.sign() else curve.start
-    return [curve.start, curve.end, *([foot] if curve.contains(foot) else [])]
-
-
-def _distances_sq(curve: Curve | Point, rest: Curve | Point) -> list[Real]:
-    """Squared distances between two curves or points, the least one among them.
-
-    They are not compared with each other: those of mirror images are equal in two forms.
-    """
-    if isinstance(curve, Point):
-        return [(p - curve).norm_sq() for p in _near_points(rest, curve)]
-    if isinstance(rest, Point):
-        return _distances_sq(rest, curve)
-    if contacts(curve, rest):
-        return [Real(0)]
-    return [pair.distance_sq for pair in nearest_points(curve, rest)]
