@@ -205,3 +205,14 @@ class TestReasonsToDivert:
         early = with_sights(replace(run, path=path, events=events, record=None))
         early = diverted(early, leave=Point(*place), first=3, last=9)
         refused(early, "(divert of obstacle 0) is due to 'out of sight', which is not so")
+
+
+def test_places_beside_events_of_a_large_scene() -> None:
+    """An arc ends where a corner comes in range; 10^-11 before, a billion away, is that end once more."""
+    size = 10**9
+    sector = xa.Outline([(0, 0), (25 * size, 0, "1/3"), (7 * size, 24 * size)])
+    corner = xa.Polygon([(4 * size, 28 * size), (8 * size, 40 * size), (0, 40 * size)])
+    run = xa.sightseer(xa.Scene([sector, corner], start=(27 * size, 0)), 5 * size)
+    assert run.events[number(run, "sight", 1)].point == Point(7 * size, 24 * size)
+    for seed in range(4):
+        audit(run, samples=8, seed=seed)

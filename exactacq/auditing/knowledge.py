@@ -193,15 +193,20 @@ class Knowledge:
         return whole < after or (whole == after and not way > here)
 
     def _beside_on(self, k: int, point: Point, shift: fmpq) -> Point | None:
-        """A rational place inside piece k about *shift* beyond a point of it, None if none is at hand."""
+        """A rational place of piece k about *shift* beyond a point of it, None if none is at hand.
+
+        Where *shift* is lost in floats it may be on the other side, but is not the point itself, nor an end.
+        """
         curve, track = self.run.path[k].curve, self.tracks[k]
         if track is not None:
             place = point_near(self.world.edges[track.edge], point, shift if track.forward else -shift)
-            return place if place is not None and curve.contains(place) else None
-        assert isinstance(curve, Segment)
-        along = (point - curve.start).dot(curve.direction) / curve.direction.norm_sq()
-        share = rational(float(along)) + shift / rational(float(curve.length))
-        return rational_on(curve, share) if 0 < share < 1 else None
+            place = place if place is not None and curve.contains(place) else None
+        else:
+            assert isinstance(curve, Segment)
+            along = (point - curve.start).dot(curve.direction) / curve.direction.norm_sq()
+            share = rational(float(along)) + shift / rational(float(curve.length))
+            place = rational_on(curve, share) if 0 < share < 1 else None
+        return None if place in (point, curve.start, curve.end) else place
 
     def _size(self, body: AuditedBody, k: int) -> arb:
         """The length of an edge, which many maps know."""
