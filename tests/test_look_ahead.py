@@ -66,6 +66,13 @@ class TestByHand:
         assert not sees(SCREEN, [], start=7, stop=7)
         assert sees(SCREEN, [], start=Real(2).sqrt(), stop=Real(2).sqrt(), including=True)
 
+    def test_a_line_that_ends_where_it_begins_in_floats(self) -> None:
+        """Both ways along it, a wall is seen that is nearer than the range; its sense no float tells."""
+        high = 10**9
+        for stop in (high + fmpq(1, 10**9), high - fmpq(1, 10**9)):
+            assert sees([wall(3, high - 1, high + 1)], [], 4, start=high, stop=stop)
+        assert not sees([wall(3, 2, 3)], [], start=0, stop=0, radius=3, including=True)
+
     def test_the_range(self) -> None:
         assert sees(SCREEN, SLIT, radius=4)
         assert not sees(SCREEN, SLIT, radius=4 - EPS)

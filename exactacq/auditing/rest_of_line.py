@@ -71,7 +71,7 @@ class RestOfLine:
         self.radius = Real(radius).ball(PRECISION)
         self.reach = nearest_float(radius)
         self.float_x, begin, end = float(self.x), float(self.start), float(self.stop)
-        self.sense = 1.0 if end >= begin else -1.0
+        self.sense = rest.stop.y.compare(rest.start.y) or 1
         low, high = min(begin, end), max(begin, end)
         targets, around = bounds(known.targets), bounds(known.others)
         dots = np.array([(*point.xy, *point.xy) for point in known.points]).reshape(-1, 4)
