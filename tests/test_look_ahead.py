@@ -20,7 +20,7 @@ from exactacq.auditing.audit import audit
 from exactacq.auditing.known_walls import PRECISION, Walls, ball_point
 from exactacq.auditing.look_ahead import seen_later
 from exactacq.auditing.rest_of_line import KnownPieces, Rest
-from exactacq.errors import AuditError
+from exactacq.errors import AuditError, Undecided
 from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.precision import workprec
@@ -72,6 +72,12 @@ class TestByHand:
         for stop in (high + fmpq(1, 10**9), high - fmpq(1, 10**9)):
             assert sees([wall(3, high - 1, high + 1)], [], 4, start=high, stop=stop)
         assert not sees([wall(3, 2, 3)], [], start=0, stop=0, radius=3, including=True)
+
+    def test_what_floats_cannot_tell_apart_is_not_passed(self) -> None:
+        """Where all within the range is one float of a large circle, balls compare few walls only."""
+        flat, posts = Arc.from_bulge(Point(3, 1), Point(3, -1), fmpq(1, 10**13)), range(1, 66)
+        with pytest.raises(Undecided, match="floats cannot tell places"):
+            sees([flat], [wall(1 + fmpq(k, 66), 0, 1) for k in posts], 4)
 
     def test_the_range(self) -> None:
         assert sees(SCREEN, SLIT, radius=4)

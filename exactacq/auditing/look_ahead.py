@@ -29,13 +29,14 @@ from collections.abc import Iterator
 import numpy as np
 from flint import arb, fmpq
 
-from exactacq.auditing.known_walls import PRECISION, BallPoint, Wall, sign
+from exactacq.auditing.known_walls import PRECISION, UNIT, BallPoint, Wall, sign
 from exactacq.auditing.last_sights import LastSights, meetings_of_ray
-from exactacq.auditing.rest_of_line import KnownPieces, LineOfSight, Rest, RestOfLine
+from exactacq.auditing.rest_of_line import FINEST, KnownPieces, LineOfSight, Rest, RestOfLine
 from exactacq.auditing.sights_of_range import SightsOfRange
+from exactacq.geometry.curves import Arc, Curve, Segment
 from exactacq.geometry.points import Point
 from exactacq.numbers.precision import workprec
-from exactacq.numbers.rationals import rational
+from exactacq.numbers.rationals import nearest_float, rational
 
 GRID = 12
 """Places of the rest, and points of each piece, whose sights are tried first."""
@@ -49,13 +50,32 @@ class Answer:
     """Whether something is seen: ``sight`` is one that is free, None if there is none, or if ``is_open``."""
 
     def __init__(self, sight: LineOfSight | None, is_open: bool = False) -> None:
-        self.is_open = is_open and sight is None
+        self.sight, self.is_open = sight, is_open and sight is None
         self.sees = sight is not None
-        self.place, self.goal = ("", "") if sight is None else (_text(at) for at in sight)
+        self.origin = (0.0, 0.0)
+
+    @property
+    def place(self) -> str:
+        """Where something is seen from."""
+        return "" if self.sight is None else _text(self.sight.place, self.origin)
+
+    @property
+    def goal(self) -> str:
+        """What is seen from there."""
+        return "" if self.sight is None else _text(self.sight.goal, self.origin)
 
 
 def seen_later(rest: Rest, known: KnownPieces, radius: fmpq) -> Answer:
-    """Whether from the rest of a line something of an obstacle is seen, known pieces being the only walls."""
+    """Whether from the rest of a line something of an obstacle is seen, known pieces being the only walls.
+
+    Far from the origin all is moved there: floats tell apart what is close to where they are small.
+    """
+    x, y = rest.start.xy
+    if UNIT * max(abs(x), abs(y)) > FINEST * nearest_float(radius) / 4:
+        origin = Point(rational(x), rational(y))
+        answer = seen_later(*_moved(rest, known, origin), radius)
+        answer.origin = x, y
+        return answer
     if not rest.including and rest.start.y == rest.stop.y:
         return Answer(None)
     line = RestOfLine(rest, known, radius)
@@ -67,6 +87,25 @@ def seen_later(rest: Rest, known: KnownPieces, radius: fmpq) -> Answer:
     if answer.sees or not line.limits:
         return answer
     return _seen_beside(rest, line, known, radius)
+
+
+def _moved(rest: Rest, known: KnownPieces, origin: Point) -> tuple[Rest, KnownPieces]:
+    """A rest of a line and what is known, as seen from an origin."""
+
+    def curve(one: Curve) -> Curve:
+        start, end = one.start - origin, one.end - origin
+        if isinstance(one, Segment):
+            return Segment(start, end)
+        return Arc(start, end, one.center - origin, one.radius_sq, one.ccw, full=one.full)
+
+    return (
+        Rest(rest.start - origin, rest.stop - origin, rest.including),
+        KnownPieces(
+            [curve(one) for one in known.targets],
+            [point - origin for point in known.points],
+            [curve(one) for one in known.others],
+        ),
+    )
 
 
 def _seen_beside(rest: Rest, line: RestOfLine, known: KnownPieces, radius: fmpq) -> Answer:
@@ -254,5 +293,5 @@ def _scaled(way: BallPoint, factor: arb) -> BallPoint:
     return BallPoint(way.x * factor, way.y * factor)
 
 
-def _text(at: BallPoint) -> str:
-    return f"({float(at.x):.15g}, {float(at.y):.15g})"
+def _text(at: BallPoint, origin: tuple[float, float]) -> str:
+    return f"({float(at.x) + origin[0]:.15g}, {float(at.y) + origin[1]:.15g})"
