@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 Floats: TypeAlias = NDArray[np.float64]
 Bools: TypeAlias = NDArray[np.bool_]
-Ints: TypeAlias = NDArray[np.int64]
+Ints: TypeAlias = NDArray[np.intp]
 
 EPS = 2.0**-48
 """Relative error of a product with an offset from q (rounded once: 2^-53) and a ray (2^-50), with room."""

@@ -14,21 +14,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from math import ceil, cos, pi, sin
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 from flint import arb
-from numpy.typing import NDArray
 
 from exactacq.auditing.comparisons import BITS
+from exactacq.auditing.hits import Bools, Floats, Ints, cross
 from exactacq.geometry.box_index import bounds
 from exactacq.geometry.curves import Arc, Curve
 from exactacq.geometry.points import Point
 from exactacq.numbers.real import Real
-
-Floats: TypeAlias = NDArray[np.float64]
-Bools: TypeAlias = NDArray[np.bool_]
-Ints: TypeAlias = NDArray[np.intp]
 
 PRECISION = 2 * BITS
 """Working bits: the root of what vanishes to this precision still vanishes to `BITS`."""
@@ -232,10 +228,10 @@ class Walls:
         error = np.maximum(error, self.grain)
         room = ROOM * self.size
         least = 2 * error * length + room * (length + far)
-        one, two = _cross(sight, to_start), _cross(sight, to_end)
+        one, two = cross(sight, to_start), cross(sight, to_end)
         beside = (np.minimum(one, two) < -least) & (np.maximum(one, two) > least)
         least = (2 * error + self.bulges[some]) * width + room * (width + far + length)
-        one, two = -_cross(chord, to_start), _cross(chord, q - starts)
+        one, two = -cross(chord, to_start), cross(chord, q - starts)
         across = (np.minimum(one, two) < -least) & (np.maximum(one, two) > least)
         crossed: Bools = beside & across
         return crossed
@@ -292,11 +288,6 @@ class Walls:
         ways = [] if at_goal or within else [sight]
         ways += [] if at_place else [sight.reversed()]
         return any(_lies_between(leave, Departure(way, arb(0)), back) for way in ways)
-
-
-def _cross(a: Floats, b: Floats) -> Floats:
-    found: Floats = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
-    return found
 
 
 def _is_on(p: BallPoint, q: BallPoint, sight: BallPoint, point: BallPoint) -> bool:

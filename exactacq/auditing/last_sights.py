@@ -13,12 +13,10 @@ from typing import NamedTuple
 
 import numpy as np
 from flint import arb
-from numpy.typing import NDArray
 
-from exactacq.auditing.known_walls import BallPoint, Bools, Floats, Wall, coincide, sign
+from exactacq.auditing.hits import Bools, Floats, Ints, cross
+from exactacq.auditing.known_walls import BallPoint, Wall, coincide, sign
 from exactacq.auditing.rest_of_line import LineOfSight, Post, RestOfLine
-
-Ints = NDArray[np.intp]
 
 ANGLE = 1e-9
 """Sines that are less leave open whether a corner is entered, besides the error of the direction."""
@@ -164,8 +162,8 @@ class LastSights:
         found = np.zeros(len(m), dtype=bool)
         through = ~(self.is_goal[m] | self.is_stand[m])
         for way, use in ((e, through), (-e, ~self.is_stand[m])):
-            one, two = _cross(leave, way) > slack, _cross(way, back) > slack
-            found |= use & (one & two | (_cross(leave, back) < -ANGLE) & (one | two))
+            one, two = cross(leave, way) > slack, cross(way, back) > slack
+            found |= use & (one & two | (cross(leave, back) < -ANGLE) & (one | two))
         return np.asarray(found & self.is_corner[m])
 
     def _may_touch(self, m: Ints, n: Floats, blur: Floats) -> Bools:
@@ -174,7 +172,7 @@ class LastSights:
         touch = self.center[m] + self.turn[m, None] * n
         width = np.hypot(*chord.T)
         room = 2 * (blur + self.rest.grain) * (width + np.abs(self.turn[m]))
-        return np.asarray(_cross(chord, touch - start) <= room)
+        return np.asarray(cross(chord, touch - start) <= room)
 
     def _with_targets(
         self,
@@ -208,19 +206,19 @@ class LastSights:
         width = float(np.hypot(*chord))
         aside = 2 * blur + 2 * bend * reach + 8 * grain
         if wall.center is None:
-            one, two = _cross(e, a - p), _cross(e, b - p)
+            one, two = cross(e, a - p), cross(e, b - p)
             wide = aside + 2 * bend * (np.hypot(*(a - p).T) + width)
             may = (np.minimum(one, two) <= wide) & (np.maximum(one, two) >= -wide)
-            across = _cross(e, chord[None]) / max(width, grain)
+            across = cross(e, chord[None]) / max(width, grain)
             # A piece is seen from its right.
             may &= across < ANGLE + bend
             clear = np.abs(across) > FLAT
             with np.errstate(all="ignore"):
-                s = _cross(a - p, chord[None]) / (across * max(width, grain))
+                s = cross(a - p, chord[None]) / (across * max(width, grain))
                 off = (aside + error) / np.abs(across)
         else:
             c, r = np.array([float(v) for v in wall.center]), float(wall.radius)
-            middle, height = ((c - p) * e).sum(axis=1), _cross(e, c - p)
+            middle, height = ((c - p) * e).sum(axis=1), cross(e, c - p)
             square = r * r - height * height
             wide = aside + 2 * bend * (np.abs(middle) + r)
             may = np.abs(height) <= r + wide
@@ -231,7 +229,7 @@ class LastSights:
             off = (wide + error) * (1 + r / half)
             q = p + s[:, None] * e
             if not wall.full:
-                side = _cross(chord[None], q - a) * wall.sense
+                side = cross(chord[None], q - a) * wall.sense
                 may &= ~clear | (side <= width * (off + wide) * 2 + grain * (width + r))
         with np.errstate(invalid="ignore"):
             may &= ~clear | ((s <= reach + 2 * off) & (s >= far - 2 * off - error))
@@ -316,8 +314,3 @@ def _arc_chord(post: Post) -> Floats:
     if wall is None or wall.full:
         return np.zeros((2, 2))
     return np.array([[float(v) for v in at] for at in (wall.start, wall.end.minus(wall.start))])
-
-
-def _cross(a: Floats, b: Floats) -> Floats:
-    found: Floats = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
-    return found

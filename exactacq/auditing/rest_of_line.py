@@ -8,12 +8,11 @@ from typing import NamedTuple
 import numpy as np
 from flint import arb, fmpq
 
+from exactacq.auditing.hits import Bools, Floats
 from exactacq.auditing.known_walls import (
     PRECISION,
     UNIT,
     BallPoint,
-    Bools,
-    Floats,
     Wall,
     Walls,
     ball_point,

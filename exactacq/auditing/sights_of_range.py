@@ -21,8 +21,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from flint import arb, arb_series
 
-from exactacq.auditing.known_walls import BallPoint, Bools, Floats, Wall, coincide, sign
-from exactacq.auditing.last_sights import Ints, Turned, turned
+from exactacq.auditing.hits import Bools, Floats, Ints
+from exactacq.auditing.known_walls import BallPoint, Wall, coincide, sign
+from exactacq.auditing.last_sights import Turned, turned
 from exactacq.auditing.rest_of_line import LineOfSight, Post, RestOfLine
 
 HALVINGS = 30
