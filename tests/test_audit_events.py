@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 from typing import Any
@@ -13,6 +14,9 @@ from test_audit import Chart, lying, refused, with_event
 
 import exactacq as xa
 from exactacq.auditing.audit import audit
+from exactacq.auditing.bounds import check_bounds
+from exactacq.auditing.comparisons import BITS
+from exactacq.errors import AuditError
 from exactacq.geometry.curves import Arc
 from exactacq.geometry.points import Point
 from exactacq.sensing.event import Ending, EventKind, Occasion, Reason
@@ -127,6 +131,18 @@ class TestWords:
         run = xa.explore(xa.load("circles"), "nearest-frontier")
         k = number(run, "hit")
         refused(with_event(run, k, kind=EventKind.BACKTRACK), f"event {k} (backtrack of obstacle 0)")
+
+
+@pytest.mark.parametrize("make", [tour, around, hasty])
+def test_whether_a_bound_applies(make: Callable[[], Run]) -> None:
+    """A broken bound that is said not to apply would be told as none."""
+    run = make()
+    values = {bound.name: bound.value.ball(BITS) for bound in run.bounds}
+    check_bounds(run, values)
+    for k, bound in enumerate(run.bounds):
+        wrong = replace(bound, applies=not bound.applies)
+        with pytest.raises(AuditError, match="but applies is"):
+            check_bounds(replace(run, bounds=(*run.bounds[:k], wrong, *run.bounds[k + 1 :])), values)
 
 
 def test_ratios_are_as_close_as_floats_are() -> None:

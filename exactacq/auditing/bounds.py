@@ -18,6 +18,7 @@ from exactacq.geometry.nearest_points import nearest_points
 from exactacq.numbers.length import Length
 from exactacq.numbers.precision import workprec
 from exactacq.numbers.real import Real
+from exactacq.sensing.event import Ending, EventKind, Occasion
 from exactacq.strategies.run import Run, SeedSpreaderRun, SightseerRun
 
 VISITS = ("(4)", "L3 corrected")
@@ -27,7 +28,7 @@ CLOSE = 1e-12
 
 
 def check_bounds(run: Run, values: Mapping[str, arb]) -> None:
-    """Each bound has the value of its formula, and holds if and only if it says so."""
+    """Each bound has the value of its formula, and holds and applies if and only if it says so."""
     names = [bound.name for bound in run.bounds]
     if names != list(values):
         raise AuditError(f"the bounds are {names}, not {list(values)}")
@@ -44,11 +45,39 @@ def check_bounds(run: Run, values: Mapping[str, arb]) -> None:
         holds = True if length < value else False if length > value else exact <= bound.value
         if bound.holds is not holds:
             raise AuditError(f"bound {bound.name} says {bound.holds}, but holds is {holds}")
+        if bound.applies is not (applies := _applies(run, bound.name)):
+            raise AuditError(f"bound {bound.name} says {bound.applies}, but applies is {applies}")
         with workprec(BITS):
             ratio = length / value if value != 0 else arb("nan")
             is_near = abs(ratio - arb(bound.ratio)) <= abs(ratio) * CLOSE
         if not is_near and (ratio.is_finite() or bound.ratio == bound.ratio):
             raise AuditError(f"bound {bound.name} has the ratio {bound.ratio}, not {ratio.str(17)}")
+
+
+def _applies(run: Run, name: str) -> bool:
+    """Whether a formula speaks of a run: Theorem 1 of the model (a), those of sweeps if they come to T.
+
+    (8) is for runs that meet nothing, (9) for such as meet nothing known on the way out, (10) where all
+    obstacles are clear of the border, (11) where both is so.
+    """
+    if isinstance(run, SightseerRun):
+        return run.complete and sum(link.source == "S" for link in run.links) < 2
+    if not isinstance(run, SeedSpreaderRun):
+        return True
+    acquired: set[int | None] = set()
+    is_direct, is_clear = True, all(body.closed for body in run.obstacles)
+    for event in run.events:
+        if event.kind is EventKind.ACQUIRE:
+            acquired.add(event.obstacle)
+        elif event.kind is EventKind.HIT and event.occasion is Occasion.WAY_OUT:
+            is_direct &= event.obstacle not in acquired
+    fits = {
+        "(8)": not (run.encounters or run.diversions),
+        "(9)": is_direct,
+        "(10)": is_clear,
+        "(11)": is_direct and is_clear,
+    }
+    return run.ending is Ending.END_OF_M_LINE and fits.get(name, True)
 
 
 def sightseer_values(run: SightseerRun, world: World) -> dict[str, arb]:
