@@ -86,6 +86,11 @@ class TestMovesOfATour:
         run = resewn(tour(), 8, 8, tour().path[7])
         refused(with_event(run, number(run, "stop"), point=run.path[-1].end, after=9), "1 pieces after")
 
+    def test_a_link_twice(self) -> None:
+        """From a start on its boundary the first obstacle has a link of length 0, which adds nothing."""
+        run = xa.sightseer(xa.load("circles"), start=(3, 0))
+        refused(replace(run, links=(run.links[0], *run.links)), "links lead to [0, 0, 1]")
+
     def test_returns_the_longer_way(self) -> None:
         """A lap around the first disc before the way back."""
         run = resewn(tour(), 2, 2, tour().path[1])
