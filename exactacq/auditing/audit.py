@@ -40,17 +40,18 @@ from exactacq.strategies.run import OwnRun, Run, SeedSpreaderRun, SightseerRun
 def audit(run: Run, *, samples: int = 64, seed: int = 0, progress: Progress | None = None) -> None:
     """Check a finished run by other means than those that made it; raises `AuditError` with the first flaw.
 
-    Path, events, links, bounds and length are checked completely, and so is each place at which a sweep lets
+    Path, moves, links, bounds and length are checked completely, and so is each place at which a sweep lets
     an obstacle go out of sight or diverts to it. What is known is checked beside all ends of known parts in
     the final map, and on samples: *samples* random boundary points, half as many ends in other maps, and as
-    many places on the path. That nothing at stake goes out of reach is asked where pieces of a line begin and
-    at places inside `MOMENTS` of them. Equal seeds give equal samples. Of a strategy of the user's own all is
-    checked but what it does, and the values of its bounds. Of decisions it is checked that what is told is
-    true and the chosen one the least of it, not that all is told. *progress* is told how many of how many
-    steps are done. Returns None if no flaw is found. ValueError for a run that was given up, `Undecided`
-    where an exact comparison is beyond the limits. Cost: about ten milliseconds a sample at ten obstacles in
-    range, less than one for each piece and event, and that of `MOMENTS` maps; for the Seed Spreader also of
-    one map for each piece on its lines, and for each place where something goes out of sight there.
+    many places on the path, some of them beside events of sight. That nothing at stake goes out of reach is
+    asked where pieces of a line begin and at places inside `MOMENTS` of them. Equal seeds give equal samples.
+    Of a strategy of the user's own all is checked but what it does, and the values of its bounds. Of
+    decisions it is checked that what is told is true and the chosen one the least of it, not that all is
+    told. *progress* is told how many of how many steps are done. Returns None if no flaw is found. ValueError
+    for a run that was given up, `Undecided` where an exact comparison is beyond the limits. Cost: about ten
+    milliseconds a sample at ten obstacles in range, less than one for each piece and event, and that of
+    `MOMENTS` maps, and of two for each obstacle that is seen; for the Seed Spreader also of one map for each
+    piece on its lines, and for each place where something goes out of sight there.
 
     >>> import exactacq as xa
     >>> audit(xa.sightseer(xa.load("circles")), samples=8)
