@@ -416,6 +416,16 @@ def test_what_long_balls_tell_apart_is_not_computed_in_the_field(monkeypatch: py
     assert value.sign() == -1
 
 
+def test_roots_of_long_polynomials_are_told_apart_by_balls(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The field of two such roots took a minute where corners were shifted by 10^-60."""
+    unit = 10**100
+    one, other = first_root((-2, 0, 0, 1)), first_root((-2 * unit - 1, 0, 0, unit))
+    value = one + (one * one + 1).sqrt() - other - (other * other + 1).sqrt()
+    assert sign._separation_bits(value) > sign.TOWER_BITS
+    monkeypatch.setattr(sign, "vanishes", lambda value: pytest.fail("computed in the field"))
+    assert value.sign() == -1
+
+
 def test_numbers_of_a_field_of_functions_have_one_order() -> None:
     """They come as a set, whose order is another one in every process."""
     numbers = [((-n, 0, 0, 1), 0) for n in (2, 3, 5)]

@@ -23,8 +23,8 @@ TRIAL_BITS = 1 << 16
 TOWER_BITS = 1 << 12
 """Zero tests that would take more bits compute in the number's field first (see `exactacq.numbers.tower`)."""
 
-SMALL = arb(2) ** -64
-"""A number within a ball of this radius that contains 0 is mostly 0."""
+SMALL_BITS = 64
+"""A number within a ball of the radius 2 to the minus this that contains 0 is mostly 0."""
 
 
 def decided_sign(value: Any) -> int:
@@ -72,10 +72,14 @@ def decided_sign(value: Any) -> int:
 def _shown_sign(value: Any) -> int:
     """The sign by longer balls, or 0 once one is so small that what lies in it hardly differs from 0.
 
-    Elements of a field may have coefficients of hundreds of digits that nearly cancel.
+    Elements of a field may have coefficients of hundreds of digits that nearly cancel; and roots of two
+    polynomials may differ by as little as their coefficients are long.
     """
     bits = FILTER_BITS[-1]
-    while value.ball(bits).rad() > SMALL and bits < TOWER_BITS:
+    polynomials = [key[0] for key, _ in value.generators() if isinstance(key, tuple)]
+    longest = max((c.bit_length() for coefficients in polynomials for c in coefficients), default=0)
+    small = arb(2) ** -(SMALL_BITS + longest)
+    while value.ball(bits).rad() > small and bits < TOWER_BITS:
         bits *= 2
         if sign := ball_sign(value.ball(bits)):
             return sign
