@@ -113,6 +113,8 @@ class Knowledge:
                     )
             if sorted(chart.seen) != sorted((*chart.acquired, *chart.incomplete)):
                 raise AuditError(f"{name}: seen obstacles are {list(chart.seen)}")
+            if list(chart.frontier) != [(i, point) for i in chart.incomplete for point in chart.ends(i)]:
+                raise AuditError(f"{name}: the frontier is not where known boundary ends")
             self.meter.add()
 
     def check_news(self) -> None:
@@ -172,7 +174,7 @@ class Knowledge:
             raise AuditError(f"{name}: the known length of obstacle {i} is not that of its parts")
         if whole == len(parts) == len(body.curves):
             return "acquired"
-        frontier = [point for k, point in chart.frontier if k == i]
+        frontier = list(chart.ends(i))
         for end in ends:
             if not any(same(end, point) for point in frontier):
                 raise AuditError(f"{name}: {place_text(end)} of obstacle {i} is missing in the frontier")
