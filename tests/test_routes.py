@@ -253,6 +253,21 @@ class TestWatching:
         with pytest.raises(xa.MoveError, match="has passed the place of this map"):
             kept[1].map.known_length()
 
+    def test_that_fails_on_the_way_leaves_the_robot_where_it_is(self) -> None:
+        """It had gone to the second wall's corner, and was taken to be still at the first one."""
+        walls = [
+            xa.Polygon([(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)]) for x, y in ((2, 0), (5, 0), (8, 2))
+        ]
+        robot = xa.Robot(xa.Scene(walls, start=(0, 0), radius=3))
+        robot.go_to((2, 0))
+        route = robot.lay([(2, 0), (10, 0)])
+        with pytest.raises(xa.MoveError, match="is not on the way"):
+            robot.follow(route, watch=lambda passage: (0, 9) if passage.place.x.compare(5) > 0 else None)
+        assert robot.position == Point(5, 0) and robot.at is None
+        with pytest.raises(xa.MoveError, match="it only touches one"):
+            robot.circle()
+        assert robot.follow(route).kind == "arrived" and robot.position == Point(10, 0)
+
     @pytest.mark.parametrize("seed", some(range(30), 8))
     def test_tells_nothing_of_what_comes(self, seed: int) -> None:
         """Until it halts a robot is told the same where obstacles beyond what it sees there are left out."""

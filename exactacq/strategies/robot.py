@@ -304,9 +304,11 @@ class Robot(Observer):
         crossing, over = route._coming(), route.piece >= len(route.pieces)
         target = here if over else route.pieces[route.piece].end if crossing is None else crossing.stop.point
         kind, decided = HaltKind.ARRIVED if crossing is None else HaltKind.HIT, self._decided(reason)
-        if target != here and not self._go_along(Segment(here, target), watch, decided):
-            kind = HaltKind.STOPPED
-        route._place, self._lap = walker.position, None
+        try:
+            if target != here and not self._go_along(Segment(here, target), watch, decided):
+                kind = HaltKind.STOPPED
+        finally:
+            route._place, self._lap = walker.position, None
         if kind is HaltKind.HIT and crossing is not None:
             node: Node = crossing.component.index
         elif walker.position is here:
@@ -476,7 +478,6 @@ class Robot(Observer):
                     if walker.position is way.start:
                         self._set_off(decided)
                     walker.move(piece)
-                    walker.position = piece.end
                 if lookout is not None:
                     walker.sense()
                 if stop is not None:
@@ -512,7 +513,6 @@ class Robot(Observer):
                     return sighting
             return None
         self._walker.move(piece)
-        self._walker.position = piece.end
         return None
 
     def _walk_until(self, piece: Piece, awaited: Awaited) -> Sighting | None:
@@ -540,7 +540,6 @@ class Robot(Observer):
                 walker.memory.shorten(piece)
             break
         walker.move(piece)
-        walker.position = piece.end
         return found
 
 

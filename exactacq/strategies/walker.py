@@ -81,7 +81,6 @@ class Walker:
         edges = len(self.bodies[self.at].edges)
         self._walk(curves[:edges], step)
         self._walk(curves[edges:])  # the rest of the edge where it began; or back to the first end
-        self.position = curves[-1].end
         self.visit()
 
     def visit(self) -> None:
@@ -96,7 +95,6 @@ class Walker:
         """
         if self.position != target:
             self.move(Piece("straight", None, Segment(self.position, target)))
-            self.position = target
         self.at = node
 
     def boundary(self) -> Boundary:
@@ -114,9 +112,12 @@ class Walker:
             step()
 
     def move(self, piece: Piece) -> None:
-        """Walk a piece of the path."""
+        """Walk a piece of the path. A straight one leaves the boundary where the walker was."""
         self._nodes.append(self.at)
         self.pieces.append(piece)
+        self.position = piece.end
+        if piece.obstacle is None:
+            self.at = START
 
     # -- sensing -----------------------------------------------------------------------------------
 
