@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from random import Random
 
 import pytest
@@ -136,6 +137,24 @@ def test_after_a_lap_the_next_one_begins() -> None:
     again.go_to((3, 0))
     assert again.walk(until="acquire").kind == "event"
     assert again.walk(to=(7, 0)).kind == "arrived" and again.position == Point(7, 0)
+
+
+@pytest.mark.parametrize(
+    "slip",
+    [
+        lambda r: r.walk_to((4, 0)),
+        lambda r: r.walk("left", to=(4, 0), reason=7),
+        lambda r: r.walk("right", reason=7),
+        lambda r: r.follow(r.lay([r.position])),
+    ],
+)
+def test_a_lap_goes_on_after_what_did_not_move_the_robot(slip: Callable[[xa.Robot], object]) -> None:
+    robot = xa.Robot(SQUARES)
+    robot.go_to((2, 0))
+    robot.walk("left", to=(2, -1))
+    with suppress(ValueError):
+        slip(robot)
+    assert robot.walk("left").kind == "round" and robot.position == Point(2, 0) and robot.length == 10
 
 
 def test_parts_have_the_numbers_of_their_obstacles_however_these_are_asked_for() -> None:

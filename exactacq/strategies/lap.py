@@ -19,6 +19,8 @@ class Lap:
 
     def __init__(self, boundary: Boundary, place: Point, forward: bool) -> None:
         self.forward = forward
+        # After how many pieces of the path it was interrupted: after more the robot is somewhere else.
+        self.after = 0
         loop = boundary.loop(place)
         self.rest = deque(loop if forward else [curve.reversed() for curve in reversed(loop)])
 
@@ -38,11 +40,12 @@ class Lap:
             return False, curve
         return True, curve if curve.end == end else curve.part(curve.start, end)
 
-    def walked(self, place: Point) -> None:
-        """Take what was walked up to a place off the next piece."""
+    def walked(self, place: Point, after: int) -> None:
+        """Take what was walked up to a place off the next piece; *after* pieces of the path by now."""
         curve = self.rest.popleft()
         if place is not curve.end and place != curve.end:
             self.rest.appendleft(curve.part(place, curve.end))
+        self.after = after
 
 
 def _first_met(curve: Curve, line: Segment) -> Point | None:

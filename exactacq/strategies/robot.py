@@ -140,7 +140,6 @@ class Robot(Observer):
                 if sighting is not None:
                     kind = HaltKind.EVENT
                     break
-        self._lap = None
         node = hit[0] if hit is not None and kind is HaltKind.HIT else self._node_at(walker.position)
         return self._landed(kind, node, sighting)
 
@@ -188,19 +187,20 @@ class Robot(Observer):
             )
         if isinstance(target, Point) and target == here:
             return Halt(HaltKind.ARRIVED, target, self.at)
+        decided = self._decided(reason)
         lap, self._lap = self._lap, None
-        if lap is None or lap.forward is not (hand == "left"):
+        if lap is None or lap.after != walker.count or lap.forward is not (hand == "left"):
             lap = Lap(walker.boundary(), here, hand == "left")
         elif not lap.rest:
             if target is None:
                 return Halt(HaltKind.ROUND, here, self.at)
             lap = Lap(walker.boundary(), here, lap.forward)
         self._lap = lap
-        self._explain(self._decided(reason))
+        self._explain(decided)
         while lap.rest:
             ends_here, curve = lap.next(target)
             sighting = self._walk_along(Piece("boundary", obstacle, curve), awaited)
-            lap.walked(walker.position)
+            lap.walked(walker.position, walker.count)
             if not lap.rest:
                 walker.visit()
             if sighting is not None:
@@ -221,7 +221,6 @@ class Robot(Observer):
         >>> robot.position
         Point(7, 0)
         """
-        self._lap = None
         try:
             self._walk_to(Point.of(point), reason)
         except ValueError as error:
@@ -280,7 +279,6 @@ class Robot(Observer):
         """
         self._at_boundary()
         self._explain(self._decided(reason))
-        self._lap = None
         self._walker.circumnavigate(self._on_edge)
 
     @_move
@@ -308,7 +306,7 @@ class Robot(Observer):
             if target != here and not self._go_along(Segment(here, target), watch, decided):
                 kind = HaltKind.STOPPED
         finally:
-            route._place, self._lap = walker.position, None
+            route._place = walker.position
         if kind is HaltKind.HIT and crossing is not None:
             node: Node = crossing.component.index
         elif walker.position is here:
@@ -343,7 +341,6 @@ class Robot(Observer):
             raise MoveError("the place is not one of this route, or of this robot")
         if crossing.component.index != self._walker.at or crossing.number < route._next:
             raise MoveError("the place is not ahead at the obstacle where the robot is")
-        self._lap = None
         self._walk_to(place.point, reason)
         route._take_up(crossing)
 
@@ -380,7 +377,6 @@ class Robot(Observer):
             self._trace.mark(EventKind.LEAVE, int(known.source), **why)
         walker.go_straight(known.target, hit)
         self._trace.mark(EventKind.HIT, known.target, occasion=Occasion.ADVANCE, other=known.source)
-        self._lap = None
         return Way(leave, hit, link)
 
     @_move
@@ -408,7 +404,6 @@ class Robot(Observer):
         walker.go_straight(link.source, way.leave)
         at = link.source if isinstance(link.source, int) else None
         trace.mark(EventKind.BACKTRACK, at, occasion=back, other=link.target)
-        self._lap = None
 
     # -- how it is done ----------------------------------------------------------------------------
 
