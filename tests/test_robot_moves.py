@@ -185,6 +185,32 @@ class TestPaths:
         halt = past.go_along(past.path_to((0, 5)), until="lose", just_past=True)
         assert halt.kind == "event" and halt.place.rational is not None
 
+    def test_lead_on_from_where_a_lap_ends(self) -> None:
+        robot = xa.Robot(xa.Scene([xa.Circle((5, 0), 2)], start=(0, 0), radius=20))
+        robot.go_to((3, 0))
+        robot.walk(until="acquire")
+        path = robot.path_to((4, -6))
+        assert isinstance(path.path[0], Arc) and path.path[0].passes(Point(3, 0))
+        assert robot.go_along(path).kind == "arrived" and robot.position == Point(4, -6)
+
+    def test_lead_along_boundaries_that_a_border_cuts(self) -> None:
+        scene = xa.Scene([xa.Circle((4, 0), 2)], terrain=xa.Terrain(8, 8), radius=9)
+        robot = xa.Robot(scene, confined=True)
+        robot.go_to((4, 0))
+        robot.circle()
+        path = robot.path_to((0, 0))
+        assert any(isinstance(piece, Arc) for piece in path.path)
+        before = robot.length
+        assert robot.go_along(path).kind == "arrived" and robot.length - before == path.length
+
+    def test_lead_on_along_the_boundary_of_a_start(self) -> None:
+        robot = xa.Robot(xa.Scene([xa.Circle((5, 0), 2)], start=(3, 0), radius=20))
+        way = robot.take(robot.nearest_unvisited())
+        robot.circle()
+        robot.go_back(way)
+        path = robot.path_to((7, 0))
+        assert robot.at is None and robot.go_along(path).kind == "arrived" and robot.at == 0
+
     def test_begin_where_the_robot_is(self) -> None:
         robot = xa.Robot(SQUARES)
         path = robot.path_to((0, 3))

@@ -234,7 +234,7 @@ class Robot(Observer):
         just_past: bool = False,
         reason: Why = "",
     ) -> Halt:
-        """Go along a path from where the robot is (see `path_to`), piece by piece by `go_to` and `walk`.
+        """Go along a path from where the robot is (see `path_to`), piece by piece as `go_to` and `walk` do.
 
         It ends where the path does, or at the first place where an obstacle is in the way or what *until*
         says happens; the halt is that of the last piece. `MoveError` for a path that begins elsewhere; what
@@ -254,9 +254,10 @@ class Robot(Observer):
         halt = Halt(HaltKind.ARRIVED, self.position, self.at)
         for piece in path.path:
             if isinstance(piece, Arc):
-                # A path that turns left has the obstacle on its left.
-                hand = "left" if piece.ccw else "right"
-                halt = self.walk(hand, to=piece.end, until=until, just_past=just_past, reason=reason)
+                if self.at is None:
+                    # At a start on a boundary the robot only touches this.
+                    self.go_to(self.position)
+                halt = self._round(piece, until=until, just_past=just_past, reason=reason)
             else:
                 halt = self.go_to(piece.end, until=until, just_past=just_past, reason=reason)
             if halt.kind is not HaltKind.ARRIVED:
@@ -406,6 +407,21 @@ class Robot(Observer):
         trace.mark(EventKind.BACKTRACK, at, occasion=back, other=link.target)
 
     # -- how it is done ----------------------------------------------------------------------------
+
+    @_move
+    def _round(
+        self, arc: Arc, *, until: EventKind | Collection[EventKind], just_past: bool, reason: Why
+    ) -> Halt:
+        """Walk along an arc of a path: on from a lap's end too, and along a boundary that a border cuts."""
+        walker, obstacle = self._walker, self._at_boundary()
+        awaited = Awaited(kinds_of(until), walker.position, just_past)
+        self._explain(self._decided(reason))
+        # A path that turns left has the obstacle on its left.
+        for curve in walker.boundary().walk(walker.position, arc.end, arc.ccw):
+            sighting = self._walk_along(Piece("boundary", obstacle, curve), awaited)
+            if sighting is not None:
+                return Halt(HaltKind.EVENT, walker.position, self.at, sighting)
+        return Halt(HaltKind.ARRIVED, walker.position, self.at)
 
     def _begin(self) -> None:
         if self._is_underway:
