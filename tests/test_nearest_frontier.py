@@ -71,6 +71,12 @@ class TestRuns:
             assert run.complete
             xa.audit(run)
 
+    def test_a_path_leads_on_past_where_a_lap_began(self) -> None:
+        """There the lap that had acquired the disc was over, and the robot decided anew."""
+        discs = [xa.Circle((5, 0), 3), xa.Circle((7, 4), "1/2")]
+        run = explored(xa.Scene(discs, start=(0, 0), radius=20))
+        assert [event.kind.value for event in run.events if event.decision] == ["start", "decide"]
+
     def test_it_is_read_back(self) -> None:
         run = explored(xa.load("circles"))
         assert load_run(run.to_json()) == run

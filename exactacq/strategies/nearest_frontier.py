@@ -106,7 +106,10 @@ def _follow(robot: Robot, way: ShortestPath, obstacle: int, why: Decision) -> No
         reason = "" if k else why
         if isinstance(piece, Arc):
             # A path that turns left has the obstacle on its left.
-            robot.walk("left" if piece.ccw else "right", to=piece.end, reason=reason)
+            hand = "left" if piece.ccw else "right"
+            if robot.walk(hand, to=piece.end, reason=reason).kind is HaltKind.ROUND:
+                # The lap by which the obstacle was acquired is over on the way.
+                robot.walk(hand, to=piece.end)
         elif robot.go_to(piece.end, reason=reason).kind is HaltKind.HIT:
             return
         if obstacle not in robot.map.incomplete:
