@@ -101,6 +101,8 @@ BOXES = ((0, 0), None, "abcd", (0, 0, float("nan"), 1), (1, 0, 0, 1))
             xa.MoveError,
             "an exit is what robot.exits gives",
         ),
+        (lambda r: r.news(5), xa.MoveError, "a route is what robot.lay"),
+        (lambda r: r.news(xa.Robot(SQUARES).lay([(0, 0)])), xa.MoveError, "that of another robot"),
         (lambda r: r.map.known([0]), ValueError, r"no obstacle \[0\] was seen"),
         (lambda r: r.map.known(0.0), ValueError, "no obstacle 0.0 was seen"),
         (lambda r: r.go_to((0, 1), until=[[1]]), ValueError, r"not for \[1\]"),
@@ -113,6 +115,17 @@ def test_slips_are_told_in_words(
     robot = xa.Robot(SQUARES)
     with pytest.raises(error, match=text.replace("^", r"\^")):
         ask(robot)
+
+
+def test_slips_at_a_boundary_are_told_as_what_they_are() -> None:
+    """Each of them was told to be no way along the boundary."""
+    robot = xa.Robot(SQUARES)
+    robot.go_to((2, 0))
+    for ask in (robot.walk_to, robot.way_to):
+        with pytest.raises(xa.MoveError, match=r"^parts of obstacle 0 are unknown"):
+            ask((4, 0))
+        with pytest.raises(xa.FormatError, match=r"^a point needs two numbers"):
+            ask("here")
 
 
 def test_a_watch_may_answer_with_coordinates() -> None:

@@ -264,6 +264,8 @@ class Observer:
         >>> robot.news(), robot.news()
         (frozenset({0}), frozenset())
         """
+        if route is not None:
+            self._check_owner(route)
         memory = self._walker.memory
         news, now = memory.news(), memory.now
         own = self._own
@@ -376,10 +378,7 @@ class Observer:
         >>> print(*robot.way_to((7, 0)))
         2*pi left
         """
-        try:
-            length, forward = self._walker_on_known_boundary().way_to(Point.of(point))
-        except ValueError as error:
-            raise not_there(error) from None
+        length, forward = self._way_to(Point.of(point))
         return length, "left" if forward else "right"
 
     def path_to(self, point: Point | Sequence[object]) -> ShortestPath:
@@ -530,6 +529,14 @@ class Observer:
             raise MoveError(f"the robot is at no boundary: {way}")
         return int(self._walker.at)
 
+    def _way_to(self, point: Point) -> tuple[Length, bool]:
+        """Length and sense of the shorter walk along the present boundary, which is known, to a point."""
+        walker = self._walker_on_known_boundary()
+        try:
+            return walker.way_to(point)
+        except ValueError as error:
+            raise MoveError(f"no way along this boundary: {error}") from None
+
     def _walker_on_known_boundary(self) -> Walker:
         at = self._at_boundary()
         # What was walked all around is known, whether it is sensed by now or not.
@@ -555,7 +562,3 @@ def _start_flaws(
 def _hulls(table: EdgeTable, ground: Ground) -> Floats:
     """Boxes around the whole obstacles of components, which their boundaries do not leave."""
     return table.hulls[[component.obstacle.index for component in ground.components]]
-
-
-def not_there(error: ValueError) -> MoveError:
-    return MoveError(f"no way along this boundary: {error}")

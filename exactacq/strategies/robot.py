@@ -23,7 +23,7 @@ from exactacq.strategies.known_map import Sighting
 from exactacq.strategies.lap import Lap
 from exactacq.strategies.lookout import Lookout
 from exactacq.strategies.moves import Awaited, EnoughMoves, Halt, HaltKind, KnownLink, Watch, Way, kinds_of
-from exactacq.strategies.observer import Observer, not_there
+from exactacq.strategies.observer import Observer
 from exactacq.strategies.routes import Exit, Route
 from exactacq.strategies.sightings import Sightings
 from exactacq.visibility.links import START, Link, Node, lexicographic
@@ -221,10 +221,7 @@ class Robot(Observer):
         >>> robot.position
         Point(7, 0)
         """
-        try:
-            self._walk_to(Point.of(point), reason)
-        except ValueError as error:
-            raise not_there(error) from None
+        self._walk_to(Point.of(point), reason)
 
     def go_along(
         self,
@@ -447,11 +444,11 @@ class Robot(Observer):
             trace.mark(EventKind.DECIDE, at if isinstance(at, int) else None, decided=decided)
 
     def _walk_to(self, point: Point, reason: Why) -> None:
-        """Walk to a point of the present boundary; ValueError, before all else, if it is not on it."""
-        walker, decided = self._walker_on_known_boundary(), self._decided(reason)
-        if decided is not None and walker.way_to(point)[0].sign() > 0:
+        """Walk to a point of the present boundary, which is known."""
+        (length, forward), decided = self._way_to(point), self._decided(reason)
+        if length.sign() > 0:
             self._explain(decided)
-        walker.walk_to(point)
+        self._walker.walk_on(point, forward)
 
     def _set_off(self, decided: Decided | None) -> None:
         """Tell what was decided; if the robot is at a boundary, with writing that it leaves this."""

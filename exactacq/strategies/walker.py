@@ -66,7 +66,10 @@ class Walker:
 
     def walk_to(self, point: Point) -> None:
         """Walk the present boundary to a point of it, the shorter way."""
-        _, forward = self.way_to(point)
+        self.walk_on(point, self.way_to(point)[1])
+
+    def walk_on(self, point: Point, forward: bool) -> None:
+        """Walk the present boundary to a point of it, in its direction or against it."""
         self._walk(self.boundary().walk(self.position, point, forward))
         self.position = point
 
