@@ -128,6 +128,15 @@ def test_slips_at_a_boundary_are_told_as_what_they_are() -> None:
             ask("here")
 
 
+def test_a_robot_that_stays_hits_nothing_once_more() -> None:
+    def stay(robot: xa.Robot) -> None:
+        for goal in ((2, 0), (2, 0), (5, 0), (2, 0)):
+            robot.go_to(goal)
+
+    run = xa.explore(SQUARES, stay)
+    assert [event.kind.value for event in run.events] == ["start", "sight", "hit", "stop"]
+
+
 def test_a_watch_may_answer_with_coordinates() -> None:
     robot = xa.Robot(SQUARES)
     assert robot.follow(robot.lay([(0, 0), (0, 5)]), watch=lambda _: (0, 2)).place == Point(0, 2)

@@ -127,7 +127,7 @@ class Robot(Observer):
         hit = self._hit_on(Segment(here, target)) if target != here else None
         end = target if hit is None else hit[1]
         kind, sighting, moves = (HaltKind.ARRIVED if hit is None else HaltKind.HIT), None, end != here
-        if hit is not None and not moves and walker.at == hit[0]:
+        if not moves and walker.at != START:
             return Halt(kind, here, self.at)
         decided = self._decided(reason)
         if moves:
