@@ -15,6 +15,9 @@ from nightly import examples
 
 import exactacq as xa
 from exactacq.files import gallery
+from exactacq.scene.edge_table import EdgeTable
+from exactacq.scene.gaps import boundary_distance
+from exactacq.strategies import offline
 from exactacq.strategies.offline import offline_bounds
 
 SIGHTSEER = [name for name in gallery.names() if not gallery.is_swept(name)]
@@ -53,6 +56,20 @@ def test_round_obstacles_and_a_start_in_the_centre_of_an_arc() -> None:
     bounds = offline_bounds(xa.Scene([half], start=(0, 0)), radius=1)
     assert bounds.tree[0].length == 3
     assert offline_bounds(xa.Scene([xa.Circle((5, 0), 2)], start=(3, 0)), radius=1).tree[0].length == 0
+
+
+def test_of_obstacles_that_are_seen_at_once_few_distances_are_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    """All weigh nothing where the radius is large: the first that join them are enough."""
+    found: list[tuple[int, int]] = []
+
+    def counted(table: EdgeTable, i: int, j: int) -> xa.Real:
+        found.append((i, j))
+        return boundary_distance(table, i, j)
+
+    monkeypatch.setattr(offline, "boundary_distance", counted)
+    squares = [box(2 * x, 2 * y + 1) for x in range(4) for y in range(4)]
+    assert offline_bounds(xa.Scene(squares, start=(0, 0)), radius=99).seeing == 0
+    assert len(found) <= 2 * len(squares)
 
 
 def test_nothing_to_explore() -> None:

@@ -156,6 +156,9 @@ class _Separations:
                 gap = Separation(source, target, weight(self._gap(source, target), i == 0))
                 heappush(heap, (_at_least(gap.length), (i, j), gap))
                 continue
+            if gap.length.rational == 0:
+                # Nothing is less: what else may be 0 is left for later.
+                return [((i, j), gap), *close]
             close.append(((i, j), gap))
             size = float(gap.length)
             most = min(most, size + margin(SLACK * size))
