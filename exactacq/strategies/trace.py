@@ -55,7 +55,6 @@ class Trace:
         walker = self._walker
         with suppress(Undecided):
             walker.sense()
-        walker.position = walker.pieces[-1].end if walker.pieces else walker.start
         at = walker.pieces[-1].obstacle if walker.pieces else None
         kept = [mark for mark in self._marks if mark[0] <= walker.count and mark[1].args[0] != EventKind.STOP]
         self._marks = [*kept, self._here(EventKind.STOP, at, ending=Ending.UNDECIDED)]
