@@ -215,6 +215,16 @@ class TestPaths:
         assert isinstance(path.path[0], Arc) and path.path[0].passes(Point(3, 0))
         assert robot.go_along(path).kind == "arrived" and robot.position == Point(4, -6)
 
+    def test_lead_along_a_hollow_arc_that_is_known_from_the_other_side(self) -> None:
+        """What of its inside is unknown counts as free: the robot walked the long way to where it is not."""
+        hollow = xa.Outline([(0, 1, "-1/5"), (3, 1), (3, 2), (0, 2)])
+        robot = xa.Robot(xa.Scene([hollow], start=(5, -3), radius=20))
+        path = robot.path_to((1, "13/10"))
+        straight, arc, _ = path.path
+        assert isinstance(arc, Arc) and not arc.ccw
+        assert robot.go_along(path).kind == "hit"
+        assert robot.position == arc.end and robot.length == straight.length + arc.length
+
     def test_lead_along_boundaries_that_a_border_cuts(self) -> None:
         scene = xa.Scene([xa.Circle((4, 0), 2)], terrain=xa.Terrain(8, 8), radius=9)
         robot = xa.Robot(scene, confined=True)

@@ -7,7 +7,10 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import NamedTuple, TypeAlias
 
+from flint import fmpq
+
 from exactacq.errors import shown
+from exactacq.geometry.curves import Arc
 from exactacq.geometry.points import Point
 from exactacq.numbers.length import Length
 from exactacq.sensing.event import SENSED, EventKind
@@ -15,6 +18,9 @@ from exactacq.strategies.known_links import NearestLink
 from exactacq.strategies.known_map import KnownMap, Sighting
 from exactacq.strategies.sightings import Sightings
 from exactacq.visibility.links import Link
+from exactacq.visibility.shortest_path import ShortestPath
+
+HALF = fmpq(1, 2)
 
 
 class HaltKind(StrEnum):
@@ -150,6 +156,23 @@ class Awaited(NamedTuple):
 
 class EnoughMoves(BaseException):
     """A robot was to move more often than it may. Not an `Exception`, so that no strategy goes on."""
+
+
+def hand_along(path: ShortestPath, arc: Arc) -> str:
+    """The hand on whose side the obstacle is where one goes along an arc of a path.
+
+    What the path bends around is on its inner side. That is the obstacle, unless the path follows from behind
+    what is known of a hollow arc: this was taken for a wall.
+    """
+    is_behind = any(
+        isinstance(wall, Arc)
+        and not wall.ccw
+        and wall.radius_sq == arc.radius_sq
+        and wall.center == arc.center
+        and wall.contains(arc.point(HALF))
+        for wall in path.walls
+    )
+    return "left" if arc.ccw != is_behind else "right"
 
 
 def kinds_of(until: EventKind | Collection[EventKind]) -> frozenset[EventKind]:

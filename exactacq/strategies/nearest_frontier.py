@@ -22,7 +22,7 @@ from exactacq.numbers.real import Real
 from exactacq.sensing.decision import NEXT, Candidate, Decision
 from exactacq.sensing.event import EventKind
 from exactacq.strategies.known_map import KnownPart
-from exactacq.strategies.moves import HaltKind
+from exactacq.strategies.moves import HaltKind, hand_along
 from exactacq.visibility.shortest_path import ShortestPath
 
 if TYPE_CHECKING:
@@ -105,8 +105,7 @@ def _follow(robot: Robot, way: ShortestPath, obstacle: int, why: Decision) -> No
     for k, piece in enumerate(way.path):
         reason = "" if k else why
         if isinstance(piece, Arc):
-            # A path that turns left has the obstacle on its left.
-            hand = "left" if piece.ccw else "right"
+            hand = hand_along(way, piece)
             if robot.walk(hand, to=piece.end, reason=reason).kind is HaltKind.ROUND:
                 # The lap by which the obstacle was acquired is over on the way.
                 robot.walk(hand, to=piece.end)

@@ -22,7 +22,17 @@ from exactacq.strategies.known_links import NearestLink
 from exactacq.strategies.known_map import Sighting
 from exactacq.strategies.lap import Lap
 from exactacq.strategies.lookout import Lookout
-from exactacq.strategies.moves import Awaited, EnoughMoves, Halt, HaltKind, KnownLink, Watch, Way, kinds_of
+from exactacq.strategies.moves import (
+    Awaited,
+    EnoughMoves,
+    Halt,
+    HaltKind,
+    KnownLink,
+    Watch,
+    Way,
+    hand_along,
+    kinds_of,
+)
 from exactacq.strategies.observer import Observer
 from exactacq.strategies.routes import Exit, Route
 from exactacq.strategies.sightings import Sightings
@@ -254,7 +264,8 @@ class Robot(Observer):
                 if self.at is None:
                     # At a start on a boundary the robot only touches this.
                     self.go_to(self.position)
-                halt = self._round(piece, until=until, just_past=just_past, reason=reason)
+                hand = hand_along(path, piece)
+                halt = self._round(piece.end, hand, until=until, just_past=just_past, reason=reason)
             else:
                 halt = self.go_to(piece.end, until=until, just_past=just_past, reason=reason)
             if halt.kind is not HaltKind.ARRIVED:
@@ -407,14 +418,13 @@ class Robot(Observer):
 
     @_move
     def _round(
-        self, arc: Arc, *, until: EventKind | Collection[EventKind], just_past: bool, reason: Why
+        self, end: Point, hand: str, *, until: EventKind | Collection[EventKind], just_past: bool, reason: Why
     ) -> Halt:
-        """Walk along an arc of a path: on from a lap's end too, and along a boundary that a border cuts."""
+        """Walk as a path leads: on from a lap's end too, and along a boundary that a border cuts."""
         walker, obstacle = self._walker, self._at_boundary()
         awaited = Awaited(kinds_of(until), walker.position, just_past)
         self._explain(self._decided(reason))
-        # A path that turns left has the obstacle on its left.
-        for curve in walker.boundary().walk(walker.position, arc.end, arc.ccw):
+        for curve in walker.boundary().walk(walker.position, end, hand == "left"):
             sighting = self._walk_along(Piece("boundary", obstacle, curve), awaited)
             if sighting is not None:
                 return Halt(HaltKind.EVENT, walker.position, self.at, sighting)
