@@ -219,7 +219,7 @@ class TestNames:
             xa.explore(CIRCLES, "other")
         assert xa.explore(CIRCLES, "mine") == xa.explore(CIRCLES, touch)
 
-    @pytest.mark.parametrize("name", ["", "a b", "-a", "<b>", "a.py:b", None, 3])
+    @pytest.mark.parametrize("name", ["", "a b", "-a", "<b>", "a.py:b", None, 3, ["a"]])
     def test_are_words(self, name: object) -> None:
         with pytest.raises(xa.StrategyError, match="a strategy has a name of letters"):
             xa.strategy(name)
@@ -232,6 +232,21 @@ class TestNames:
             robot.go_to((1, 0))
 
         assert xa.explore(CIRCLES, sightseer).name == "sightseer-"
+
+    def test_of_others_are_taken(self) -> None:
+        """Read back, the run of another function had the bounds of the strategy of its name."""
+        xa.strategy("touch", bounds=lambda run: [("most", "a guess", run.radius)])(nearest_first)
+        run = xa.explore(CIRCLES, touch)
+        assert run.name == "touch-" and xa.load_run(run.to_json()) == run
+
+    def test_of_methods_are_found(self) -> None:
+        class Toucher:
+            def go(self, robot: xa.Robot) -> None:
+                touch(robot)
+
+        toucher = Toucher()
+        xa.strategy("toucher")(toucher.go)
+        assert xa.explore(CIRCLES, toucher.go).name == "toucher"
 
     def test_of_one_that_takes_no_link(self) -> None:
         with pytest.raises(xa.MoveError, match=r"a link is what robot\.links .* gives, not None"):

@@ -60,7 +60,7 @@ def strategy(
     >>> print(run.visits, run.length, [(bound.name, bound.holds) for bound in run.bounds])
     (0, 1) 5 + 12*pi [('most', False)]
     """
-    if name in tuple(Strategy) or name in _BASELINES:
+    if name in (*Strategy, *_BASELINES):
         raise StrategyError(f"{name} is a strategy of exactacq: choose another name")
     if callable(name):
         raise StrategyError('a strategy is registered under a name: write @xa.strategy("NAME")')
@@ -102,12 +102,13 @@ def registered_in(module: str) -> list[str]:
 
 
 def of_function(rules: Rules) -> OwnStrategy:
-    """A function as a strategy: as it was registered, or else under its own name."""
-    found = next((own for own in (*_BASELINES.values(), *_known.values()) if own.rules is rules), None)
+    """A function as a strategy: as it was registered, or under its own name, with "-" if that is taken."""
+    # A method is another object each time that it is asked for, and equal.
+    found = next((own for own in (*_BASELINES.values(), *_known.values()) if own.rules == rules), None)
     if found is not None:
         return found
     name = re.sub(r"[^\w-]", "", getattr(rules, "__name__", "")) or type(rules).__name__
-    return OwnStrategy(f"{name}-" if name in tuple(Strategy) else name, rules)
+    return OwnStrategy(f"{name}-" if name in names() else name, rules)
 
 
 def names() -> list[str]:
