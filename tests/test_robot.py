@@ -253,6 +253,14 @@ class TestWhatIsTold:
         chart = xa.Robot(SQUARES).map
         assert chart.nearest(0, (0, 0)) == Point(2, 0) and chart.nearest(0, (0, 9)) == Point(2, 1)
 
+    def test_of_equally_near_points_the_least_is_the_nearest(self) -> None:
+        """Of half a disc seen from afar, from its other side; and of a round room, from its centre."""
+        half = xa.Scene([xa.Outline([(3, 0, 1), (-3, 0)])], start=(0, 9), radius=30)
+        nearest = xa.Robot(half).map.nearest(0, (0, 0))
+        assert nearest.x.compare(0) < 0 and nearest.y == 1
+        room = xa.Scene([], start=(0, 0), radius=20, enclosure=xa.Circle((0, 0), 9))
+        assert xa.Robot(room).nearest([0]) == (0, Point(-9, 0))
+
 
 class TestPeeking:
     """No public name leads to what was not seen."""

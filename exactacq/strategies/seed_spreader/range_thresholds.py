@@ -17,16 +17,18 @@ from exactacq.numbers.real import Real
 
 
 def nearest_point(curve: Curve, place: Point) -> Point:
-    """The point of a closed curve nearest to a place; of equally near ones the start, else the end."""
+    """The point of a closed curve nearest to a place; of equally near ones the lexicographically least."""
     if isinstance(curve, Arc):
         ray = place - curve.center
-        if (ray.x.sign() or ray.y.sign()) and spans(curve, (ray.x, ray.y)):
+        if ray.x.sign() == 0 == ray.y.sign():
+            # All of the arc is equally near.
+            ray = Point(-1, 0)
+        if spans(curve, (ray.x, ray.y)):
             foot: Point = curve.center + ray * (curve.radius / ray.norm_sq().sqrt())
             put_on(foot, curve.carrier)
             put_on_normal(foot, place, curve.carrier)
             return foot
-        nearer = distance_sq(curve.start, place).compare(distance_sq(curve.end, place)) <= 0
-        return curve.start if nearer else curve.end
+        return nearest_of((curve.start, curve.end), place)
     along = curve.whole.direction
     if (place - curve.start).dot(along).sign() <= 0:
         return curve.start
