@@ -51,6 +51,15 @@ def test_moves_just_past_sightings_end_at_the_goal_and_at_corners_too() -> None:
     assert halt.kind == "event" and halt.place == halt.sighting.place == Point(4, 1)
 
 
+def test_on_the_way_that_it_came_a_robot_looks_out_too() -> None:
+    """What is seen there is known, in other forms of the same numbers: that these are equal was undecided."""
+    bay = xa.Outline([(3, 4), (3, 2, 1), (1, 2), (1, 4)])
+    lens = xa.Outline([(2, 6, "1/5"), (1, 6), (1, 8), (2, 8)])
+    robot = xa.Robot(xa.Scene([bay, lens], terrain=xa.Terrain(3, 12), radius=3), confined=True)
+    robot.go_to(robot.frontier[0][1])
+    assert robot.length == 3 and robot.go_to((0, 0), until="lose").kind == "arrived"
+
+
 @pytest.mark.parametrize("past", [False, True])
 def test_a_walk_is_round_though_something_happens_just_there(past: bool) -> None:
     """The last of a disc is seen where the lap ends; there a second lap began, and so on for ever."""

@@ -215,6 +215,7 @@ class Memory:
         else:
             legs = [ahead.leg if halt is None else self._halted(ahead, halt)]
         count, reports, retraced = len(self._legs), [], self._is_retraced(piece, legs)
+        self._note_walked(piece, legs)
         undo: list[Callable[[], None]] = []
         try:
             for k, leg in enumerate(legs):
@@ -298,19 +299,22 @@ class Memory:
         It shows what is known, in other forms of the same numbers: ties that need no proof.
         """
         if piece.obstacle is not None:
-            walked = [self._is_walked_on(leg) for leg in legs]
-            return all(walked)
-        start, end = piece.start.key, piece.end.key
-        self._walked.add((start, end))
-        return (end, start) in self._walked
+            return all(map(self._is_walked_on, legs))
+        return (piece.end.key, piece.start.key) in self._walked
 
     def _is_walked_on(self, leg: Leg) -> bool:
-        """Whether the robot was on all of a leg on a boundary edge; from now on it was."""
-        if leg.edge is None:
-            return False
-        before = self._walked_on.get(leg.edge, EMPTY)
-        self._walked_on[leg.edge] = before.added(leg.span)
-        return self._walked_on[leg.edge] is before
+        """Whether the robot was on all of a leg on a boundary edge."""
+        before = None if leg.edge is None else self._walked_on.get(leg.edge)
+        return before is not None and before.added(leg.span) is before
+
+    def _note_walked(self, piece: Piece, legs: list[Leg]) -> None:
+        """Keep that the robot was on all of a piece."""
+        if piece.obstacle is None:
+            self._walked.add((piece.start.key, piece.end.key))
+            return
+        for leg in legs:
+            if leg.edge is not None:
+                self._walked_on[leg.edge] = self._walked_on.get(leg.edge, EMPTY).added(leg.span)
 
     def _legs_of(self, piece: Piece) -> list[Leg]:
         owner = piece.obstacle
@@ -340,7 +344,7 @@ class Memory:
     def ahead(self, piece: Piece) -> Ahead:
         """What a piece that is one leg will tell when it is walked next."""
         (leg,) = self._legs_of(piece)
-        ahead = self._sensor.ahead(leg)
+        ahead = self._sensor.ahead(leg, self._is_retraced(piece, [leg]))
         for notice in ahead.notices:
             # What the way touches, its part to there does.
             leg.tell_touched(self._table, notice.place)
