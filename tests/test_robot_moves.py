@@ -61,6 +61,21 @@ def test_on_the_way_that_it_came_a_robot_looks_out_too() -> None:
 
 
 @pytest.mark.parametrize("past", [False, True])
+def test_on_the_way_that_it_came_a_robot_halts(past: bool) -> None:
+    """The parts of that way, too, show what is known, also to whoever reads the run from a file."""
+
+    def out_and_back(robot: xa.Robot) -> None:
+        robot.go_to(robot.frontier[0][1])
+        while robot.go_to(robot.start, until=SIGHTS, just_past=past).kind == "event":
+            pass
+        assert robot.position == robot.start
+
+    run = xa.explore(random_scene(Subject.SIGHTSEER, 64), out_and_back)
+    assert len(run.path) > 2
+    assert xa.load_run(run.to_json()).map.known_length() == run.map.known_length()
+
+
+@pytest.mark.parametrize("past", [False, True])
 def test_a_walk_is_round_though_something_happens_just_there(past: bool) -> None:
     """The last of a disc is seen where the lap ends; there a second lap began, and so on for ever."""
     robot = xa.Robot(xa.Scene([xa.Circle((5, 0), 2)], start=(3, 0), radius=20))

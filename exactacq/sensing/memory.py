@@ -173,6 +173,8 @@ class Memory:
         self._looked: tuple[Piece | None, Piece | None, Ahead | None] = None, None, None
         self._halt: HaltPlace | None = None
         self._walked: set[tuple[object, object]] = set()
+        # The last straight piece that did not go back on an earlier one, until the robot leaves it.
+        self._way: Curve | None = None
         self._walked_on: dict[int, Cover] = {}
         self._retraced: set[int] = set()
         self._history = History()
@@ -300,7 +302,14 @@ class Memory:
         """
         if piece.obstacle is not None:
             return all(map(self._is_walked_on, legs))
-        return (piece.end.key, piece.start.key) in self._walked
+        return (piece.end.key, piece.start.key) in self._walked or self._stays_on_way(piece)
+
+    def _stays_on_way(self, piece: Piece) -> bool:
+        """Whether a straight piece, which begins on the last way, is known to end there too."""
+        try:
+            return self._way is not None and self._way.passes(piece.end)
+        except Undecided:
+            return False
 
     def _is_walked_on(self, leg: Leg) -> bool:
         """Whether the robot was on all of a leg on a boundary edge."""
@@ -311,7 +320,10 @@ class Memory:
         """Keep that the robot was on all of a piece."""
         if piece.obstacle is None:
             self._walked.add((piece.start.key, piece.end.key))
+            if not self._stays_on_way(piece):
+                self._way = piece.curve
             return
+        self._way = None
         for leg in legs:
             if leg.edge is not None:
                 self._walked_on[leg.edge] = self._walked_on.get(leg.edge, EMPTY).added(leg.span)
