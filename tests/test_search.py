@@ -22,6 +22,7 @@ from exactacq.files.scene_json import scene_text
 from exactacq.numbers.rationals import rational
 from exactacq.study.claims.model import Case, Finding, Outcome, Statement, Subject
 from exactacq.study.search import Budget, Draft, Goal, Referee, Search, goal, goal_names, shrink
+from exactacq.study.search import hypothesis_search as hypothesis_home
 from exactacq.study.search.command import search
 from exactacq.study.search.drafts import Seat, is_convex
 from exactacq.study.search.hypothesis_search import hypothesis_search
@@ -352,6 +353,21 @@ def test_hypothesis_finds_what_is_broken() -> None:
     assert hunt.best is not None
     assert hunt.best.fails
     assert judged(visits_less_than_two, hunt.best.draft) == hunt.best
+
+
+def test_hypothesis_ends_with_the_budget(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Once the seconds were over it went on to draw all of its examples, a million."""
+    pytest.importorskip("hypothesis")
+    monkeypatch.setattr(hypothesis_home, "MOST_EXAMPLES", 20)
+    asked: list[Budget] = []
+
+    def spend(budget: Budget) -> bool:
+        asked.append(budget)
+        return False
+
+    monkeypatch.setattr(Budget, "spend", spend)
+    hypothesis_search(Search(Referee(is_short), Subject.SIGHTSEER, Rules(), 1), Budget(seconds=0))
+    assert len(asked) == 1
 
 
 def test_hypothesis_that_is_missing_is_named(monkeypatch: pytest.MonkeyPatch) -> None:

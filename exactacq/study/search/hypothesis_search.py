@@ -74,7 +74,7 @@ def hypothesis_search(search: Search, budget: Budget) -> None:
 
     def trial(draft: Draft) -> None:
         if not budget.spend():
-            return
+            raise _Spent
         ruling = search.referee.judge(draft)
         search.note(ruling)
         if not ruling.speaks:
@@ -94,8 +94,8 @@ def hypothesis_search(search: Search, budget: Budget) -> None:
     given = library.given(drafts(search.subject, search.rules))
     try:
         library.seed(search.seed)(settings(given(trial)))()
-    except (_Broken, library.errors.Flaky, library.errors.Unsatisfiable):
-        # Flaky: the budget ran out while it shrank. What was found is noted already.
+    except (_Broken, _Spent, library.errors.Flaky, library.errors.Unsatisfiable):
+        # Flaky: a violation took too long when it was judged again. What was found is noted already.
         return
 
 
@@ -105,6 +105,10 @@ _MOST_TARGET = 1e9
 
 class _Broken(Exception):
     """A violation."""
+
+
+class _Spent(BaseException):
+    """The budget is spent. No Exception, which hypothesis would take for a violation."""
 
 
 def _hypothesis() -> Any:
