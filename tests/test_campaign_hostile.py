@@ -16,6 +16,7 @@ import time
 from collections.abc import Callable
 from contextlib import closing
 from dataclasses import replace
+from math import inf
 from pathlib import Path
 from typing import Any
 
@@ -311,6 +312,12 @@ def slow() -> Callable[[Any], Any]:
 def _slowly(task: int) -> int:
     time.sleep(0.3)
     return task
+
+
+def test_a_limit_may_be_infinite() -> None:
+    """More seconds than the platform can wait ended `verify --timeout inf` and `search --limit inf`."""
+    with Team(slow, 1, inf) as team:
+        assert list(team.results([1])) == [(1, 1)]
 
 
 @by_night

@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from queue import Empty, SimpleQueue
-from threading import Thread
+from threading import TIMEOUT_MAX, Thread
 from time import monotonic
 from types import TracebackType
 from typing import Any, Generic, NamedTuple, TypeVar
@@ -114,7 +114,8 @@ class Team(Generic[Task, Answer]):
         """The next message, or None if a deadline comes first."""
         deadline = min((p.deadline for p in self._processes if p.is_awaited), default=None)
         try:
-            return self._inbox.get(timeout=None if deadline is None else max(0.0, deadline - monotonic()))
+            wait = None if deadline is None else min(max(0.0, deadline - monotonic()), TIMEOUT_MAX)
+            return self._inbox.get(timeout=wait)
         except Empty:
             return None
 
