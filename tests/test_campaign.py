@@ -365,7 +365,9 @@ class TestCommand:
         assert done.exit_code == 0
         assert CliRunner().invoke(app, ["--replay", "sightseer:0", "--no-audit"]).exit_code == 0
 
-    @pytest.mark.parametrize("text", ["17", "sightseer:-1", "both:3", "sightseer:x", "sightseer:"])
+    @pytest.mark.parametrize(
+        "text", ["17", "sightseer:-1", "both:3", "sightseer:x", "sightseer:", f"sightseer:{'9' * 5000}"]
+    )
     def test_a_scene_that_is_none_is_refused(self, text: str) -> None:
         with pytest.raises(FormatError, match="not a scene"):
             CliRunner().invoke(app, ["--replay", text], catch_exceptions=False)

@@ -157,8 +157,10 @@ def _asked(settings: Settings, claimed: bool) -> Settings:
 
 def _task(text: str) -> Task:
     strategy, _, seed = text.rpartition(":")
-    if strategy not in Settings().strategies or not (seed.isascii() and seed.isdecimal()):
-        raise FormatError(f"--replay: not a scene: {text!r}; give one like sightseer:17 or seed-spreader:0")
+    if strategy not in Settings().strategies or not (seed.isascii() and seed.isdecimal() and len(seed) < 20):
+        raise FormatError(
+            f"--replay: not a scene: {text[:40]!r}; give one like sightseer:17 or seed-spreader:0"
+        )
     return Task(strategy, int(seed))
 
 
