@@ -27,7 +27,7 @@ from exactacq.study.search.command import search
 from exactacq.study.search.drafts import Seat, is_convex
 from exactacq.study.search.hypothesis_search import hypothesis_search
 from exactacq.study.search.moves import MOVES, Rules, mutate, rounded
-from exactacq.study.search.referee import BROKEN, judged
+from exactacq.study.search.referee import BROKEN, Ruling, judged
 
 GALLERY = Path(gallery.__file__).parent / "data" / "gallery"
 APP = typer.Typer()
@@ -258,6 +258,17 @@ def test_improvements_are_told_in_order() -> None:
     hunt.run(Budget(15))
     assert scores == sorted(set(scores))
     assert len(scores) > 1
+
+
+def test_a_failure_is_kept_although_floats_take_it_for_a_tie() -> None:
+    """P beyond its bound by less than floats tell is the find, not a scene where both sides are equal."""
+    hunt = Search(Referee(is_short), Subject.SIGHTSEER, Rules())
+    rulings = [
+        Ruling(two_boxes(), Finding(o, "", 1.0)) for o in (Outcome.HOLDS, Outcome.FAILS, Outcome.HOLDS)
+    ]
+    for ruling in rulings:
+        hunt.note(ruling)
+    assert hunt.best is rulings[1]
 
 
 def test_a_search_begins_only_where_its_rules_allow() -> None:

@@ -47,7 +47,7 @@ class Search:
     """A search for the highest score. It repeats itself for the same seed and number of steps.
 
     That is so as long as no candidate is dropped for its time. ``best`` is the best ruling so far,
-    ``started`` what is reported at each improvement.
+    ``improved`` is told of each improvement.
     """
 
     referee: Referee
@@ -71,7 +71,7 @@ class Search:
 
     def note(self, ruling: Ruling) -> None:
         """Keep a ruling if it is the best so far."""
-        if ruling.speaks and (self.best is None or ruling.score > self.best.score):
+        if ruling.speaks and (self.best is None or ruling.rank > self.best.rank):
             self.best = ruling
             if self.improved is not None:
                 self.improved(ruling)

@@ -48,6 +48,11 @@ class Ruling:
             return BROKEN if self.fails else 0.0
         return self.finding.ratio
 
+    @property
+    def rank(self) -> tuple[bool, float]:
+        """What is the better find: a failure is, even if floats take its ratio for that of one that holds."""
+        return self.fails, self.score
+
 
 Check = Callable[[Case], Finding]
 
