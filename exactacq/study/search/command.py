@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 SECONDS = 60.0
 """How long a search takes if neither --seconds nor --steps is given."""
 STEPS = "Candidates in place of seconds, and as many to shrink: repeatable."
+"""What --steps does."""
 SHRINKING = 0.3
 """The share of the seconds that is kept for shrinking; steps are all given to it once more."""
 
@@ -71,12 +72,7 @@ def search(
     seconds: Annotated[
         float | None, typer.Option(min=0, metavar="T", help=f"Time for everything; default: {SECONDS:.0f}.")
     ] = None,
-    steps: Annotated[
-        int | None,
-        typer.Option(
-            min=1, metavar="N", help="Candidates in place of seconds, and as many to shrink: repeatable."
-        ),
-    ] = None,
+    steps: Annotated[int | None, typer.Option(min=1, metavar="N", help=STEPS)] = None,
     limit: Annotated[float, typer.Option(min=0.01, metavar="T", help="Seconds for one candidate.")] = 10.0,
     seed: Annotated[int, typer.Option(help="The same seed and steps find the same scene.")] = 0,
     keep: Annotated[
