@@ -21,6 +21,7 @@ from exactacq.files import gallery
 from exactacq.files.scene_json import scene_text
 from exactacq.numbers.rationals import rational
 from exactacq.study.claims.model import Case, Finding, Outcome, Statement, Subject
+from exactacq.study.claims.sweeps import is_convex as convex
 from exactacq.study.search import Budget, Draft, Goal, Referee, Search, goal, goal_names, shrink
 from exactacq.study.search import hypothesis_search as hypothesis_home
 from exactacq.study.search.command import search
@@ -108,8 +109,18 @@ def test_a_start_on_a_boundary_goes_with_it() -> None:
 def test_convexity() -> None:
     notched = xa.Polygon([(0, 0), (4, 0), (4, 4), (2, 1), (0, 4)])
     lens, bay = xa.Outline([(0, 0, 1), (2, 0, 1)]), xa.Outline([(0, 0), (4, 0, "-1/2"), (4, 4), (0, 4)])
-    shapes = [box(0, 0), xa.Polygon([(0, 0), (0, 1), (1, 0)]), xa.Circle((0, 0), 1), lens, notched, bay]
-    assert [is_convex(shape) for shape in shapes] == [True, True, True, True, False, False]
+    peanut = xa.Outline([(0, 0, 2), (2, 0, 1)])
+    shapes = [
+        box(0, 0),
+        xa.Polygon([(0, 0), (0, 1), (1, 0)]),
+        xa.Circle((0, 0), 1),
+        lens,
+        notched,
+        bay,
+        peanut,
+    ]
+    assert [is_convex(shape) for shape in shapes] == [True] * 4 + [False] * 3
+    assert [convex(xa.Scene([shape]).obstacles[0].edges) for shape in shapes] == [True] * 4 + [False] * 3
 
 
 @pytest.mark.parametrize(

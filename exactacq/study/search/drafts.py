@@ -178,7 +178,8 @@ def is_convex(shape: Shape) -> bool:
     bulges = bends(shape)
     if all(bulge == 0 for bulge in bulges):
         return all(t >= 0 for t in turns) or all(t <= 0 for t in turns)
-    return len(vertices) == 2 and (bulges[0] > 0) == (bulges[1] > 0) and all(bulges)
+    # With larger bulges on one side the arcs make a dent where they meet: the angles add up to more than pi.
+    return len(vertices) == 2 and 0 < bulges[0] * bulges[1] <= 1
 
 
 def rebuilt(shape: Shape, vertices: tuple[Vertex, ...]) -> Shape:
