@@ -149,6 +149,12 @@ class TestFailures:
             store.add([record], 0)
             assert faults(store) == [(record.task, "audit failed", "planted flaw")]
 
+    def test_a_scene_that_cannot_be_made_is_an_error(self) -> None:
+        """It killed two workers, and then the coordinator, which made it once more for the record."""
+        record = judge(Task("sightseer", 3), [], True, SceneSource("cubes"))
+        assert (record.result, record.scene) == ("error", None)
+        assert record.detail.startswith("ValueError: 'cubes' is not a valid Family")
+
     def test_undecided_and_broken_checks_are_no_passes(self) -> None:
         settings = replace(QUICK, claims="planted_claims:DOUBTFUL", scenes=3)
         with opened(settings) as store:

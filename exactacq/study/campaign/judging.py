@@ -69,7 +69,10 @@ def judge(
     arguments. Cost: the run's, the audit's and the checks'; seconds.
     """
     began = perf_counter()
-    case = Case(source.scene(task))
+    try:
+        case = Case(source.scene(task))
+    except Exception as error:
+        return Record(task, Result.ERROR.value, perf_counter() - began, detail=_words(error))
     result, detail, length = _run(case, task, audited)
     # Without a run there is nothing to say, and each check would only meet the same error again.
     asked = [] if length is None else [s for s in statements if s[0].strategy == task.strategy]
