@@ -196,6 +196,7 @@ class TestDamage:
             ("UPDATE findings SET detail = x'ff'", "a value of the wrong type among the findings"),
             ("UPDATE scenes SET length = 'far'", "a value of the wrong type among the scenes"),
             ("UPDATE scenes SET seed = seed + 100", "scenes that were not asked for"),
+            ("DELETE FROM scenes WHERE seed = 2", "findings of scenes that are not there"),
             ("UPDATE campaign SET value = 'much' WHERE key = 'wall'", "the seconds spent are no number"),
             ("DELETE FROM campaign WHERE key = 'wall'", "the seconds spent are no number"),
             ("PRAGMA application_id = 7", "not the file of a campaign"),

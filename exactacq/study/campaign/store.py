@@ -117,6 +117,8 @@ class Store:
             yield "the seconds spent are no number"
         if not self.done() <= set(settings.tasks()):
             yield "scenes that were not asked for"
+        if self.rows("SELECT strategy, seed FROM findings EXCEPT SELECT strategy, seed FROM scenes LIMIT 1"):
+            yield "findings of scenes that are not there"
 
     def _compare(self, settings: Settings, statements: Sequence[Called]) -> None:
         """Refuse what is not the file of this campaign."""
