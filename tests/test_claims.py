@@ -93,6 +93,7 @@ class TestVerdict:
         assert self.of(Outcome.FAILS, counterexamples=("m8",)) is Status.FALSE
         assert self.of(Outcome.FAILS, Outcome.SILENT, counterexamples=("m8", "m4")) is Status.CONTRADICTED
         assert self.of(Outcome.HOLDS, counterexamples=("m8",)) is Status.CONTRADICTED
+        assert self.of(is_false=True) is Status.CONTRADICTED, "nothing was asked that could show it"
 
     def test_trial(self) -> None:
         fails = Statement("It.", Subject.SIGHTSEER, trial=lambda: found(False, "so"))

@@ -242,7 +242,7 @@ def verdict(
 
 def _status(statement: Statement, spoken: int, failures: int, asked: int) -> Status:
     if statement.is_called_false:
-        return Status.FALSE if failures == asked else Status.CONTRADICTED
+        return Status.FALSE if 0 < failures == asked else Status.CONTRADICTED
     if failures:
         return Status.CONTRADICTED
     if not spoken:
