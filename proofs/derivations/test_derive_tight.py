@@ -311,8 +311,9 @@ def test_families_are_as_told(yardstick: Yardstick) -> None:
 
 
 def test_the_best_is_whole_if_one_is() -> None:
-    """Not the first that a float takes for 1."""
+    """Not the first that a float takes for 1: of several scenes, and of several acquisitions on one."""
     tiny = Length("1/1000000000000000000000")
+    assert Portion(Length(2), Length(2)).rank > Portion(Length(1) - tiny, Length(1)).rank
     shares = {
         "near": Portion(Length(1) - tiny, Length(1)),
         "whole": Portion(Length(1), Length(1)),

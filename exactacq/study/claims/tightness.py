@@ -48,6 +48,11 @@ class Portion(NamedTuple):
         """Whether the bound is reached."""
         return self.part == self.whole
 
+    @property
+    def rank(self) -> tuple[bool, float]:
+        """Ascends with the ratio: told by floats, and exactly whether one is whole and another is not."""
+        return self.is_whole, float(self.ratio)
+
     def __str__(self) -> str:
         """The ratio as a fraction or, if its closed form is short, as two lengths; and as a decimal.
 
@@ -94,16 +99,9 @@ def best(yardstick: Yardstick, cases: Iterable[tuple[str, Case]]) -> tuple[str, 
     found: tuple[str, Portion] | None = None
     for name, case in cases:
         share = yardstick.measure(case)
-        if share is not None and (found is None or _exceeds(share, found[1])):
+        if share is not None and (found is None or share.rank > found[1].rank):
             found = name, share
     return found
-
-
-def _exceeds(share: Portion, other: Portion) -> bool:
-    """Whether a share is larger: told by floats, and exactly whether one is whole and the other is not."""
-    if share.is_whole or other.is_whole:
-        return share.is_whole and not other.is_whole
-    return float(share.ratio) > float(other.ratio)
 
 
 # -- the Sightseer's bounds ------------------------------------------------------------------------
@@ -176,7 +174,7 @@ def _acquisition(closed: bool) -> Callable[[Case], Portion | None]:
             for stay in circuits
             if is_circuit(run, stay)
         ]
-        return max(shares, key=lambda share: float(share.ratio), default=None)
+        return max(shares, key=lambda share: share.rank, default=None)
 
     return measure
 
