@@ -100,7 +100,7 @@ def random_scene(subject: Subject, seed: int) -> Scene:
 
     The Sightseer gets a start, on the grid or on a boundary, no terrain, and sometimes an enclosure; in two
     scenes of five the radius exceeds the scene. The Seed Spreader gets a terrain and starts in its SW corner.
-    In half of its scenes obstacles lie over the border; a sixth are long and narrow with many diversions, and
+    In half of its scenes obstacles lie over the border; a tenth are long and narrow with many diversions, and
     the slowest. ValueError for a negative seed. Cost: about ten milliseconds.
 
     >>> from exactacq.study.random_scenes import Subject, random_scene
