@@ -99,6 +99,17 @@ def longer_way(patch: Patch) -> None:
     patch.setattr(Boundary, "way", other)
 
 
+def second_turn(patch: Patch) -> None:
+    """Each obstacle is circled twice, one turn after the other."""
+    original = Robot.circle
+
+    def twice(self: Robot) -> None:
+        original(self)
+        original(self)
+
+    patch.setattr(Robot, "circle", twice)
+
+
 def late_leave(patch: Patch) -> None:
     """The Seed Spreader leaves an obstacle at its last crossing point."""
 
@@ -114,6 +125,7 @@ MUTATIONS: tuple[tuple[Callable[[Patch], None], str, tuple[str, ...]], ...] = (
     (wrong_bound, "squares", ("T1 corrected",)),
     (wrong_length_of_m_line, "case1", ("C8",)),
     (skipped_obstacle, "squares", ("SS-1 corrected", "SS-3", "SS-4 corrected", "SS-5")),
+    (second_turn, "m8", ("SS-1 corrected", "T1 corrected")),
     (lost_interval, "squares", ("SS-3", "SS-4 corrected")),
     (lost_on_the_way, "", ("SSS-4",)),
     (miscounted_strip, "m25", ("L3 corrected", "T2 corrected")),

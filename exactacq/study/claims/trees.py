@@ -106,9 +106,13 @@ def circled(run: Run) -> list[int]:
 
 def end_flaw(run: Run) -> str | None:
     """Whether a run ended: it stops once, at the end, and circles no obstacle twice."""
-    around = [stay.obstacle for stay in stays(run) if is_circuit(run, stay)]
-    if len(around) != len(set(around)):
-        return f"the obstacles circled are {around}"
+    circuits = [stay for stay in stays(run) if is_circuit(run, stay)]
+    around = [stay.obstacle for stay in circuits]
+    # One stay may hold two turns: what follows the first is half of one at most.
+    if len(around) != len(set(around)) or any(
+        stay.length >= run.obstacles[stay.obstacle].perimeter * 2 for stay in circuits
+    ):
+        return f"the obstacles circled are {around}, or one of them twice on a stay"
     stops = [k for k, event in enumerate(run.events) if event.kind is EventKind.STOP]
     if stops != [len(run.events) - 1] or run.events[-1].after != len(run.path):
         return "the run does not end with its stop"
