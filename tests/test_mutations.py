@@ -18,6 +18,7 @@ from exactacq.scene.boundary_walk import Boundary
 from exactacq.sensing.leg_views import Shares
 from exactacq.strategies import bounds
 from exactacq.strategies.robot import Robot
+from exactacq.strategies.seed_spreader.rules import Spreader
 from exactacq.study.claims import CLAIMS, Case, Outcome, Statement
 
 Patch = pytest.MonkeyPatch
@@ -88,6 +89,18 @@ def miscounted_strip(patch: Patch) -> None:
     patch.setattr(bounds, "census", off_by_one)
 
 
+def unnoted_visits(patch: Patch) -> None:
+    """Visits on diversions are not noted, so that the run compares too few with (4)."""
+    original = Spreader._approach
+
+    def silent(self: Spreader, *way: Any) -> None:
+        before = len(self.encounters)
+        original(self, *way)
+        del self.encounters[before:]
+
+    patch.setattr(Spreader, "_approach", silent)
+
+
 def longer_way(patch: Patch) -> None:
     """Of the two ways round a boundary the longer one is taken."""
     original = Boundary.way
@@ -129,6 +142,7 @@ MUTATIONS: tuple[tuple[Callable[[Patch], None], str, tuple[str, ...]], ...] = (
     (lost_interval, "squares", ("SS-3", "SS-4 corrected")),
     (lost_on_the_way, "", ("SSS-4",)),
     (miscounted_strip, "m25", ("L3 corrected", "T2 corrected")),
+    (unnoted_visits, "m15", ("L3 corrected", "T2 corrected")),
     (longer_way, "m20-3", ("SSS-7",)),
     (late_leave, "m20-3", ("E3 corrected",)),
 )

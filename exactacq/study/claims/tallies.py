@@ -37,7 +37,8 @@ def bounds_flaw(case: Case, run: SightseerRun | SeedSpreaderRun) -> str | None:
             check_links(run)
             check_bounds(run, sightseer_values(run, case.world))
         else:
-            told, counted = [*run.again], [*case.shared(Tally).met_again]
+            tally = case.shared(Tally)
+            told, counted = [*run.encounters, *run.again], [*tally.visited, *tally.met_again]
             check_bounds(run, spreader_values(run, case.field))
     except AuditError as error:
         return str(error)
@@ -84,12 +85,19 @@ class Tally:
         return len(self.run.obstacles)
 
     @cached_property
-    def visits(self) -> int:
-        """Arrivals at obstacles on the M-line and on the way out on diversions."""
-        return sum(
-            event.kind in (EventKind.HIT, EventKind.CROSS) and event.occasion in VISITS
+    def visited(self) -> tuple[int, ...]:
+        """The obstacles of the arrivals on the M-line and on the way out on diversions, in order."""
+        return tuple(
+            event.obstacle
             for event in self.run.events
+            if event.kind in (EventKind.HIT, EventKind.CROSS) and event.occasion in VISITS
+            if event.obstacle is not None
         )
+
+    @property
+    def visits(self) -> int:
+        """How many arrivals these are."""
+        return len(self.visited)
 
     @cached_property
     def met_again(self) -> tuple[int, ...]:
