@@ -23,6 +23,7 @@ SIGHTSEERS["some by way of S alone"] = xa.Scene(
 SPREADERS = {
     name: xa.load(name) for name in ("figure3", "figure4", "case1", "case2", "case3", "m15", "m20-8")
 }
+SPREADERS["one passed on the way back only"] = random_scene(Subject.SEED_SPREADER, 5_000_010)
 SPREADERS |= {f"random {seed}": random_scene(Subject.SEED_SPREADER, seed) for seed in some(range(8), 4)}
 
 
@@ -40,6 +41,16 @@ def test_bounds_of_the_seed_spreader(name: str) -> None:
     whole = case.spreader.ending is Ending.END_OF_M_LINE
     for bound in case.spreader.bounds:
         assert bound.applies == (whole and PREMISES[bound.name].holds(case)), bound.name
+
+
+def test_case_2_is_for_diversions_that_meet_nothing_known_on_the_way_back_either() -> None:
+    """What is circled on the way out was taken for unknown on the way back, where it is passed."""
+    run = Case(SPREADERS["one passed on the way back only"]).spreader
+    assert [e.occasion for e in run.events if e.kind == "hit" and e.obstacle == 0][-2:] == [
+        "way out",
+        "way back",
+    ]
+    assert [b.applies for b in run.bounds if b.name in ("(9)", "(11)")] == [False, False]
 
 
 def test_a_run_that_sees_nothing_says_so(capsys: pytest.CaptureFixture[str]) -> None:

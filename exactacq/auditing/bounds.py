@@ -57,7 +57,7 @@ def check_bounds(run: Run, values: Mapping[str, arb]) -> None:
 def _applies(run: Run, name: str) -> bool:
     """Whether a formula speaks of a run: Theorem 1 of the model (a), those of sweeps if they come to T.
 
-    (8) is for runs that meet nothing, (9) for such as meet nothing known on the way out, (10) where all
+    (8) is for runs that meet nothing, (9) for such as meet nothing known on diversions, (10) where all
     obstacles are clear of the border, (11) where both is so.
     """
     if isinstance(run, SightseerRun):
@@ -69,7 +69,7 @@ def _applies(run: Run, name: str) -> bool:
     for event in run.events:
         if event.kind is EventKind.ACQUIRE:
             acquired.add(event.obstacle)
-        elif event.kind is EventKind.HIT and event.occasion is Occasion.WAY_OUT:
+        elif event.kind is EventKind.HIT and event.occasion in (Occasion.WAY_OUT, Occasion.WAY_BACK):
             is_direct &= event.obstacle not in acquired
     fits = {
         "(8)": not (run.encounters or run.diversions),

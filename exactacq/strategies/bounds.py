@@ -26,6 +26,8 @@ from exactacq.strategies.seed_spreader.mline import MLine
 from exactacq.visibility.links import START
 
 HALF = fmpq(1, 2)
+WAYS = Occasion.WAY_OUT, Occasion.WAY_BACK
+"""Where diversions meet obstacles."""
 AnyRun = TypeVar("AnyRun", bound=SightseerRun | SeedSpreaderRun | OwnRun)
 
 
@@ -188,14 +190,12 @@ def spreader_bounds(run: SeedSpreaderRun, table: EdgeTable | None = None) -> tup
 
 
 def _meets_known(run: SeedSpreaderRun) -> bool:
-    """Whether a diversion meets an obstacle on its way out that was acquired before."""
+    """Whether a diversion meets an obstacle, on its way out or back, that was acquired before."""
     acquired: set[int | None] = set()
     for event in run.events:
         if event.kind is EventKind.ACQUIRE:
             acquired.add(event.obstacle)
-        elif (
-            event.kind is EventKind.HIT and event.occasion is Occasion.WAY_OUT and event.obstacle in acquired
-        ):
+        elif event.kind is EventKind.HIT and event.occasion in WAYS and event.obstacle in acquired:
             return True
     return False
 

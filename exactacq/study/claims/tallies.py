@@ -115,13 +115,16 @@ class Tally:
 
     @cached_property
     def diversions_meet_known(self) -> bool:
-        """Whether a diversion meets an obstacle on its way out that was acquired before."""
-        return any(met.acquired & set(met.on_the_way) for met in self._meetings)
+        """Whether a diversion meets an acquired obstacle; all that it hits on its way back are.
+
+        The paper's Case 2 drops the terms for passing known obstacles, there and back.
+        """
+        return any(met.acquired or met.on_the_way_back for met in self._meetings)
 
     @cached_property
     def overtaken(self) -> list[int]:
         """The aims that became acquired on the way to them and were then hit before the point aimed at."""
-        return [met.aim for met in self._meetings if met.aim in met.acquired & set(met.on_the_way)]
+        return [met.aim for met in self._meetings if met.aim in met.acquired]
 
     @cached_property
     def stays_in_strips(self) -> bool:
