@@ -22,7 +22,7 @@ from exactacq.files.scene_json import scene_text
 from exactacq.numbers.rationals import rational
 from exactacq.study.claims.model import Case, Finding, Outcome, Statement, Subject
 from exactacq.study.claims.sweeps import is_convex as convex
-from exactacq.study.search import Budget, Draft, Goal, Referee, Search, goal, goal_names, shrink
+from exactacq.study.search import Budget, Draft, Goal, Referee, Search, annealing, goal, goal_names, shrink
 from exactacq.study.search import hypothesis_search as hypothesis_home
 from exactacq.study.search.command import search
 from exactacq.study.search.drafts import Seat, is_convex
@@ -365,6 +365,15 @@ def test_unknown_goals_are_refused(name: str, corrected: bool, message: str) -> 
         goal(name, corrected)
 
 
+def test_looking_for_a_start_is_counted_in_the_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A search of two seconds looked at 2000 random scenes, half a minute, for one that it may begin with."""
+    monkeypatch.setattr(annealing, "THROWS", 3)
+    hunt = Search(Referee(is_short), Subject.SIGHTSEER, Rules(least=5))
+    assert hunt.run(Budget(seconds=0)) is None
+    with pytest.raises(FormatError, match="no random scene keeps"):
+        hunt.run(Budget(seconds=60))
+
+
 # -- hypothesis ----------------------------------------------------------------------------------------
 
 
@@ -431,6 +440,7 @@ def test_the_command_refuses_before_it_searches(tmp_path: Path) -> None:
     wrong = [
         (["nothing"], "no claim or bound"),
         (["(6)", "--strategy", "sightseer"], "speaks of the seed-spreader"),
+        (["(6)", "--least", "5"], "--least: no scene has at least 5 and at most 4 obstacles"),
         (["(6)", "--out", str(tmp_path / "f.txt")], "must end in"),
     ]
     for line, message in wrong:

@@ -32,11 +32,16 @@ class Budget:
     used: int = 0
     begun: float = field(default_factory=monotonic)
 
+    @property
+    def is_spent(self) -> bool:
+        """Whether there is nothing left."""
+        if self.steps is not None and self.used >= self.steps:
+            return True
+        return self.seconds is not None and monotonic() - self.begun >= self.seconds
+
     def spend(self) -> bool:
         """Count one candidate; False if there is nothing left."""
-        if self.steps is not None and self.used >= self.steps:
-            return False
-        if self.seconds is not None and monotonic() - self.begun >= self.seconds:
+        if self.is_spent:
             return False
         self.used += 1
         return True
@@ -61,7 +66,7 @@ class Search:
     def run(self, budget: Budget) -> Ruling | None:
         """Search until the budget is spent; the best ruling, None if no scene tried is spoken of."""
         rng = Random(self.seed)
-        starts = self._starts(rng)
+        starts = self._starts(rng, budget)
         for number in _endless():
             again = number % 2 == 1 and self.best is not None
             first = self.best.draft if again and self.best is not None else next(starts, None)
@@ -92,8 +97,8 @@ class Search:
                 now = ruling
         return True
 
-    def _starts(self, rng: Random) -> Iterator[Draft]:
-        """The draft given, again and again, or random scenes that keep to the rules."""
+    def _starts(self, rng: Random, budget: Budget) -> Iterator[Draft]:
+        """While the budget lasts: the draft given, again and again, or random scenes that keep the rules."""
         if self.begin is not None:
             if not self.rules.allow(self.begin):
                 raise FormatError("the scene to begin with does not keep to the search's own rules")
@@ -101,6 +106,8 @@ class Search:
                 yield self.begin
         misses = 0
         while misses < THROWS:
+            if budget.is_spent:
+                return
             scene = random_scene(self.subject, int(rng.random() * 10**9))
             draft = None if scene.enclosure is not None else trimmed(Draft.of(scene), self.rules)
             if draft is not None and self.rules.allow(draft):

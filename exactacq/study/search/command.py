@@ -98,6 +98,8 @@ def search(
     target = goal(claim, statement is Wording.CORRECTED)
     if strategy is not None and strategy.value != target.subject.value:
         raise FormatError(f"--strategy: {target.name} speaks of the {target.subject.value}")
+    if least > obstacles:
+        raise FormatError(f"--least: no scene has at least {least} and at most {obstacles} obstacles")
     for path, kinds in ((out, TRACES), (figure, FIGURES)):
         if path is not None:
             check_output(path, kinds)
