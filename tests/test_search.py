@@ -374,6 +374,13 @@ def test_looking_for_a_start_is_counted_in_the_time(monkeypatch: pytest.MonkeyPa
         hunt.run(Budget(seconds=60))
 
 
+def test_what_was_found_is_kept_where_there_are_no_more_starts(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The error told of the last 2000 random scenes only, and threw the find away."""
+    monkeypatch.setattr(annealing, "THROWS", 3)
+    hunt = Search(Referee(is_short), Subject.SIGHTSEER, Rules(least=5), best=judged(is_short, two_boxes()))
+    assert hunt.run(Budget(seconds=60)) is hunt.best
+
+
 # -- hypothesis ----------------------------------------------------------------------------------------
 
 

@@ -114,7 +114,8 @@ class Search:
                 misses = 0
                 yield draft
             misses += 1
-        raise FormatError("no random scene keeps to the search's rules; give a scene to begin with")
+        if self.best is None:
+            raise FormatError("no random scene keeps to the search's rules; give a scene to begin with")
 
 
 def trimmed(draft: Draft, rules: Rules) -> Draft | None:
