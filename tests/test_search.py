@@ -497,6 +497,18 @@ def test_diversions_can_be_one_less_than_obstacles() -> None:
         assert (len(targets), len(set(targets)), len(run.obstacles)) == (count, count, count + 1)
 
 
+def test_a_bar_that_ends_outside_of_the_terrain_breaks_6_by_its_whole_perimeter() -> None:
+    """The paper's p is the boundary's length; a run's is the shore's, which is 8 of the 40 of tight-t2."""
+    whole = xa.load("tight-t2")
+    east, slope = rational("4.01"), rational("0.4") / rational("19.8")
+    bar = xa.Polygon([(0, "0.4"), ("0.2", "0.4"), (east, (20 - east) * slope), (east, (20 - east) / 50)])
+    run = xa.seed_spreader(xa.Scene([bar], (0, 0), terrain=whole.terrain, radius=whole.radius))
+    assert run.length == xa.seed_spreader(whole).length
+    outside = run.scene.obstacles[0].perimeter - run.obstacles[0].perimeter
+    values = {bound.name: bound.value for bound in run.bounds}
+    assert all(run.length > values[name] + outside * 5 for name in ("(5)", "(6)"))  # 3 p + 2 n n_0 p_max
+
+
 def test_the_tight_bars_are_convex_and_cross_few_strips() -> None:
     for name, strips in (("tight-l3", 3), ("tight-t2", 5), ("tight-t2-snake", 2)):
         scene = xa.load(GALLERY / f"{name}.json")
