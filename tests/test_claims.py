@@ -233,6 +233,13 @@ class TestSweepCounts:
             assert is_convex(Scene([shape]).obstacles[0].edges) is expected, shape
 
 
+def test_diversions_by_all_options() -> None:
+    """What the note on SSS-5 tells: two on sss5, on m18 only to visible points."""
+    options = [(ahead, target) for target in ("known", "visible") for ahead in (True, False)]
+    for name, counts in (("sss5", [2, 2, 2, 2]), ("m18", [1, 1, 2, 2])):
+        assert [len(example(name).sweep(*option).diversions) for option in options] == counts
+
+
 def test_overlooked() -> None:
     """A final map that is really an earlier one lacks what the path shows since."""
     case = example("squares")

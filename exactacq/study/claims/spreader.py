@@ -349,9 +349,9 @@ CLAIMS = (
             argument="SSS-5",
         ),
         "The occluder can be known already (m15), or lie beside the way to the target (sss5): there two "
-        "diversions are made for three obstacles, by any option. The like scene m18 needs one diversion "
-        "only. It takes obstacles with pockets to reach $n$; seven convex ones can take six "
-        "(tight-sss5-fan).",
+        "diversions are made for three obstacles, by any option. On the like scene m18 it is one, and two "
+        "only if they go to visible points. Obstacles with pockets reach $n$; seven convex ones can take "
+        "six (tight-sss5-fan).",
     ),
     Claim(
         "SSS-6",
