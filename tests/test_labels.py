@@ -141,6 +141,12 @@ def test_figures_of_names_with_control_characters_are_xml(tmp_path: Path) -> Non
     ElementTree.parse(tmp_path / "f.svg")
 
 
+@pytest.mark.parametrize("name", ["   ", "\n", "\u200b", "\u202e", "\u2800"])
+def test_names_in_which_nothing_is_to_be_seen_are_drawn(name: str) -> None:
+    scene = Scene([Circle((0, 0), 3, name=name)], (9, 9), radius=5, name=name)
+    assert len(xa.figure(scene).axes[0].texts) == 3
+
+
 def test_other_labels_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(FormatError, match="labels: none, numbers, names, all, not"):
         xa.figure(xa.load("circles"), labels="some")

@@ -16,7 +16,8 @@ from typing import Any
 
 import numpy as np
 from matplotlib.font_manager import FontProperties
-from matplotlib.textpath import TextPath
+from matplotlib.path import Path
+from matplotlib.textpath import text_to_path
 
 from exactacq.scene.edge_table import Floats
 
@@ -36,6 +37,8 @@ NEAR, FAR = 14.0, 44.0
 """Labels are at most so far from what they name: without a leader line, and with one."""
 CLEAR = 4.0
 """Cells with lines below a label that are no reason to go far away for."""
+BLANK = 0.3
+"""Width of a text of size 1 in which nothing is to be seen."""
 INSIDE, MARK = 0.1, 2.0
 """What a cell within an obstacle, and one below a mark, counts; one below a line counts 1."""
 
@@ -220,8 +223,8 @@ def _gaps(spots: Floats, extents: Spot, target: Floats) -> Floats:
 
 @lru_cache(maxsize=4096)
 def _width(text: str) -> float:
-    """The width of a text of size 1, in bold letters."""
-    size = 20.0
-    plain = text.replace("$", r"\$")  # Between two of these would be a formula.
-    path = TextPath((0, 0), plain, size=size, prop=FontProperties(weight="bold"), usetex=False)
-    return float(path.get_extents().width) / size if len(path.vertices) else 0.3
+    """The width of a text of size 1, in bold letters; names may have none that leave a trace."""
+    vertices, codes = text_to_path.get_text_path(FontProperties(weight="bold"), text)
+    if not len(vertices):
+        return BLANK
+    return float(Path(vertices, codes).get_extents().width) / text_to_path.FONT_SCALE
