@@ -322,6 +322,32 @@ def test_broken_sweeps_are_refused(part: tuple[object, ...], value: object, what
         load_run(document)
 
 
+@pytest.mark.parametrize(
+    ("part", "value", "what"),
+    [
+        (("radius",), "9" * 400, "radius of more than"),
+        (("path", 0, "start"), ["0", "9" * 400], "farther than"),
+        (("path", 0, "end"), ["0", "0"], "from one place to another"),
+        (("path", 2, "end"), ["3", "0"], "from one place to another"),
+        (("path", 4, "arc", "full"), False, "from one place to another"),
+        (("path", 4, "arc", "full"), "true", "true or false"),
+        (("path", 1, "arc", "ccw"), 1, "true or false"),
+        (("events", 0, "inside"), "false", "true or false"),
+    ],
+)
+def test_what_would_fail_when_the_run_is_shown_is_refused(
+    part: tuple[object, ...], value: object, what: str
+) -> None:
+    *places, last = part
+    document = copy.deepcopy(gallery_run("circles").to_json())
+    place = document
+    for key in places:
+        place = place[key]
+    place[last] = value
+    with pytest.raises((FormatError, InvalidScene), match=what):
+        load_run(document)
+
+
 @pytest.mark.parametrize("path", sorted(OLD.glob("version2-*.json")), ids=lambda path: path.stem)
 def test_files_of_version_2_are_read(path: Path) -> None:
     """Their events say in words what fields say now: the words that the fields give are the same."""

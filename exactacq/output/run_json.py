@@ -27,7 +27,9 @@ from exactacq.numbers.length import Length
 from exactacq.numbers.number_json import Decoder, Encoder, Number, is_place
 from exactacq.numbers.rationals import rational
 from exactacq.output.old_run_files import OLD_VERSIONS, upgraded
+from exactacq.scene.scene import radius_of
 from exactacq.scene.terrain_components import ground_of
+from exactacq.scene.validation import LIMIT, LIMIT_TEXT
 from exactacq.sensing.decision import Candidate, Decision, Rule
 from exactacq.sensing.event import SENSED, Ending, Event, EventKind, Occasion, Reason
 from exactacq.sensing.memory import Memory
@@ -131,14 +133,13 @@ def _run(document: dict[str, Any]) -> Run:
 def _without_bounds(document: dict[str, Any]) -> SightseerRun | SeedSpreaderRun | OwnRun:
     numbers = _Points(Decoder(document["numbers"], ViewLength.of_parts))
     scene = scene_of(document["scene"])
-    radius, start = rational(document["radius"]), numbers.point(document["start"])
-    if radius <= 0:
-        raise FormatError(f"the radius must be positive, not {shown(document['radius'])}")
+    start = numbers.point(document["start"])
+    radius = radius_of(scene, rational(document["radius"]), start)
     strategy = document["strategy"]
-    is_own = document.get("own") is True and is_name(strategy)
+    is_own = _truth(document.get("own", False)) and is_name(strategy)
     if not is_own and strategy not in (SightseerRun.strategy, SeedSpreaderRun.strategy):
         raise FormatError(f"a run of the unknown strategy {str(strategy)[:40]!r}")
-    confined = is_own and document.get("confined") is True
+    confined = is_own and _truth(document.get("confined", False))
     ground = ground_of(scene) if confined or strategy == SeedSpreaderRun.strategy else None
     count = len(scene.obstacles if ground is None else ground.components)
     path = Path(_read_piece(numbers, piece, count) for piece in document["path"])
@@ -164,7 +165,7 @@ def _without_bounds(document: dict[str, Any]) -> SightseerRun | SeedSpreaderRun 
         return SightseerRun(**common, links=links, stack_depth=int(document["stack_depth"]))
     return SeedSpreaderRun(
         **common,
-        lookahead=bool(document["lookahead"]),
+        lookahead=_truth(document["lookahead"]),
         target=str(document["target"]),
         diversions=tuple(_read_diversion(numbers, d, path, count) for d in document["diversions"]),
         encounters=_indices(document["encounters"], count),
@@ -314,7 +315,10 @@ class _Points:
         x, y = pair
         key = is_place(x), str(x), is_place(y), str(y)
         if key not in self._points:
-            self._points[key] = Point(self.numbers.number(x), self.numbers.number(y))
+            point = Point(self.numbers.number(x), self.numbers.number(y))
+            if any(abs(number.ball(64)) > LIMIT for number in (point.x, point.y)):
+                raise FormatError(f"a place of the run lies farther than {LIMIT_TEXT} from the axes")
+            self._points[key] = point
         return self._points[key]
 
 
@@ -324,9 +328,11 @@ def _read_piece(numbers: _Points, document: dict[str, Any], count: int) -> Piece
     if "arc" in document:
         arc = document["arc"]
         center, square = numbers.point(arc["center"]), rational(arc["radius_sq"])
-        if not all(_may_lie_on(place, center, square) for place in (start, end)):
+        if square <= 0 or not all(_may_lie_on(place, center, square) for place in (start, end)):
             raise FormatError("an arc of the path does not end on its circle")
-        curve = Arc(start, end, center, square, arc["ccw"] is True, arc["full"] is True)
+        curve = Arc(start, end, center, square, _truth(arc["ccw"]), _truth(arc["full"]))
+    if (start == end) != (isinstance(curve, Arc) and curve.full):
+        raise FormatError("a piece of the path leads from one place to another, or once around a circle")
     is_straight, obstacle = document["kind"] == "straight", document["obstacle"]
     obstacle = None if obstacle is None else _obstacle(obstacle, count)
     if not is_straight and document["kind"] != "boundary":
@@ -388,7 +394,7 @@ def _read_events(
             place = numbers.point(document["point"])
         if place is None:
             raise FormatError(f"an event of kind {kind} has no point")
-        after, inside = int(document["after"]), document["inside"] is True
+        after, inside = int(document["after"]), _truth(document["inside"])
         if not 0 <= after <= len(path) - inside:
             raise FormatError(f"an event after piece {shown(document['after'])} of a path of {len(path)}")
         within = path[after].curve if inside and document["point"] is not None else None
@@ -450,3 +456,9 @@ def _obstacle(value: Any, count: int) -> int:
 
 def _node(value: Any, count: int) -> int | str:
     return START if value == START else _obstacle(value, count)
+
+
+def _truth(value: Any) -> bool:
+    if not isinstance(value, bool):
+        raise FormatError(f"true or false is needed, not {shown(value)}")
+    return value
