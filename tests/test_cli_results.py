@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import sys
 from itertools import pairwise
 from pathlib import Path
 
@@ -196,3 +197,11 @@ def test_path_refuses(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Non
     cut = tmp_path / "cut.json"
     xa.write(xa.Scene([[(4, -1), (5, -1), (5, 9), (4, 9)]], terrain=xa.Terrain(8, 8)), cut)
     assert "no path leads from 0,0 to 8,0" in refused(capsys, "path", cut, "0,0", "8,0")
+
+
+@pytest.mark.parametrize("stream", ["stdout", "stderr"])
+def test_a_stream_that_is_closed_is_no_fault(stream: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, stream, None)
+    assert cli.main(["explore", "squares"]) == 0
+    assert cli.main(["check", "squares", "--json"]) == 0
+    assert cli.main(["explore", "nowhere"]) == 2

@@ -6,6 +6,7 @@ import os
 import sys
 from collections.abc import Sequence
 from importlib.metadata import version
+from io import StringIO
 from typing import Annotated
 
 import typer
@@ -65,8 +66,10 @@ for command in (explore, compare, play, check, gallery, convert, isovist, path, 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command line (default: the process's own) and return its exit status; never raises."""
-    for stream in (sys.stdout, sys.stderr):
-        if hasattr(stream, "reconfigure"):  # Names of files and obstacles may be beyond the encoding.
+    for name in ("stdout", "stderr"):
+        if (stream := getattr(sys, name)) is None:  # It was closed before the process began.
+            setattr(sys, name, StringIO())
+        elif hasattr(stream, "reconfigure"):  # Names of files and obstacles may be beyond the encoding.
             stream.reconfigure(errors="backslashreplace")
     try:
         status = _perform(arguments)
