@@ -475,3 +475,14 @@ def test_far_and_tiny_scenes_are_refused_in_words() -> None:
         figure(Scene([Circle((10**30, 0), 1)]))
     with pytest.raises((FormatError, InvalidScene)):
         figure(Scene([Circle((10**400, 0), 1)]))
+
+
+@pytest.mark.parametrize("power", [-60, 60])
+def test_numbers_at_ticks_are_short_whatever_the_unit_is(power: int) -> None:
+    unit = fmpq(10) ** power
+    drawn = figure(Scene([Circle((5 * unit, 0), unit)], (0, 0), radius=9 * unit))
+    drawn.canvas.draw()
+    axes = drawn.axes[0]
+    labels = [label.get_text() for label in (*axes.get_xticklabels(), *axes.get_yticklabels())]
+    assert max(map(len, labels)) < 6
+    assert "1e" in axes.xaxis.get_offset_text().get_text()

@@ -27,7 +27,7 @@ from exactacq.geometry.strokes import Floats
 from exactacq.numbers.rationals import nearest_float, plain
 from exactacq.output.figures.canvas import NARROWEST, TALLEST, WIDEST
 from exactacq.output.figures.draw import rendered
-from exactacq.output.figures.layout import dress
+from exactacq.output.figures.layout import dress, tick
 from exactacq.output.regions import closed
 from exactacq.output.vocabulary import AWAY, EDGE, FILL, GROUND, HIT, INK, MISSED, PAPER, SOFT, VIEW
 from exactacq.scene.scene import Obstacle
@@ -208,8 +208,7 @@ class _Page:
         left = (full - wide) / 2 + 0.12
         self.axes.set_position((left / full, below / total, wide / full, high / total))
         dress(self.axes)
-        self.axes.ticklabel_format(useOffset=False, style="plain")
-        self.axes.locator_params(nbins=6, min_n_ticks=2)
+        tick(self.axes)
         title = self.found.contents.name or self.found.name
         lines = ((title, 12, INK), (self.found.trouble or "OK", 9.5, OPEN if self.found.trouble else SOFT))
         for k, (line, size, colour) in enumerate(lines):

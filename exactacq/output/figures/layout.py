@@ -25,6 +25,8 @@ CLOSED_FORM = 40
 """Closed forms of at most this many characters are shown in the title, the decimal value of others."""
 TITLE = 12.0
 """Size of a title, in points."""
+PLAIN = (-7, 9)
+"""Powers of ten at which the numbers at ticks begin to have their power beside the axis."""
 LEGEND: dict[str, Any] = {
     "frameon": False, "labelcolor": INK, "borderpad": 0, "borderaxespad": 0, "handlelength": 1.8,
     "columnspacing": 1.5, "labelspacing": 0.4, "handler_map": {tuple: HandlerTuple(ndivide=1)},
@@ -77,6 +79,12 @@ def dress(axes: Any) -> None:
     for side in axes.spines.values():
         side.set(color=LINE, linewidth=0.6)
     axes.tick_params(labelsize=7.5, colors=SOFT, length=2.5, width=0.6)
+
+
+def tick(axes: Any) -> None:
+    """A few ticks a side, with numbers that are read at a glance and fit beside the drawing."""
+    axes.ticklabel_format(useOffset=False, style="sci", scilimits=PLAIN)
+    axes.locator_params(nbins=6, min_n_ticks=2)
 
 
 def title(drawing: Canvas) -> list[str]:
@@ -151,8 +159,7 @@ class _Setting:
         bottom = y + self.below
         axes.set_position((left / full, bottom / total, self.wide / full, self.high / total))
         dress(axes)
-        axes.ticklabel_format(useOffset=False, style="plain")
-        axes.locator_params(nbins=6, min_n_ticks=2)
+        tick(axes)
         middle, top = (x + self.full / 2) / full, 1 - (total - (bottom + self.high + self.above)) / total
         for k, line in enumerate(self.title):
             size, colour = ((TITLE, INK), (9.5, SOFT), (9.5, MISSED))[k]
