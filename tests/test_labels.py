@@ -19,6 +19,7 @@ from nightly import some
 import exactacq as xa
 from exactacq import FormatError, cli
 from exactacq.files.octagons import random_octagons
+from exactacq.output.figures.drawing_figure import drawing
 from exactacq.output.figures.labels import FAR, GAP, SPACE, LabelRoom, around, extent
 from exactacq.output.vocabulary import Labels
 from exactacq.scene.scene import Scene
@@ -145,6 +146,24 @@ def test_figures_of_names_with_control_characters_are_xml(tmp_path: Path) -> Non
 def test_names_in_which_nothing_is_to_be_seen_are_drawn(name: str) -> None:
     scene = Scene([Circle((0, 0), 3, name=name)], (9, 9), radius=5, name=name)
     assert len(xa.figure(scene).axes[0].texts) == 3
+
+
+def test_figures_of_checks_show_short_texts_that_are_xml(tmp_path: Path) -> None:
+    scene = Scene([Circle((5, 0), 3)], (0, 0), radius="1/12345678901234567", name="a\x1b long name " * 20)
+    xa.write(scene, tmp_path / "scene.json")
+    assert cli.main(["check", str(tmp_path / "scene.json"), "--figure", str(tmp_path / "f.svg")]) == 0
+    ElementTree.parse(tmp_path / "f.svg")
+    page = drawing(xa.inspect(tmp_path / "scene.json"))
+    page.canvas.draw()
+    title, (legend,) = page.texts[0], page.legends
+    assert title.get_window_extent().width < page.bbox.width
+    assert [text.get_text() for text in legend.get_texts()] == ["R ≈ 8.1e-17", "start S"]
+
+
+def test_a_check_of_what_is_lost_in_floating_point_is_not_drawn() -> None:
+    far = Scene([Circle((10**30, 0), 1)], (10**30 + 2, 0), radius=1)
+    with pytest.raises(FormatError, match="too small to be drawn"):
+        drawing(xa.inspect(far))
 
 
 def test_other_labels_are_refused(capsys: pytest.CaptureFixture[str]) -> None:

@@ -15,7 +15,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle as Disc
 from matplotlib.path import Path as Outline
 
-from exactacq.errors import FormatError
+from exactacq.errors import FormatError, without_controls
 from exactacq.files.checking.inspection import Inspection
 from exactacq.files.checking.lines import walked
 from exactacq.files.checking.sketch import Sketch, places_of, points_of, strokes_of
@@ -24,10 +24,13 @@ from exactacq.files.whole_files import FIGURES, check_output, write_whole
 from exactacq.geometry.intersections import ContactKind
 from exactacq.geometry.points import Point
 from exactacq.geometry.strokes import Floats
-from exactacq.numbers.rationals import nearest_float, plain
+from exactacq.numbers.rationals import nearest_float
 from exactacq.output.figures.canvas import NARROWEST, TALLEST, WIDEST
 from exactacq.output.figures.draw import rendered
+from exactacq.output.figures.labels import fitted
 from exactacq.output.figures.layout import dress, tick
+from exactacq.output.figures.lettering import radius_text
+from exactacq.output.figures.sweep import check_size
 from exactacq.output.regions import closed
 from exactacq.output.vocabulary import AWAY, EDGE, FILL, GROUND, HIT, INK, MISSED, PAPER, SOFT, VIEW
 from exactacq.scene.scene import Obstacle
@@ -60,7 +63,7 @@ def save_inspection(found: Inspection, path: str | os.PathLike[str]) -> None:
 def drawing(found: Inspection) -> Figure:
     """A matplotlib figure of an inspection: all loops, violations, open chains and their gaps, the start.
 
-    `FormatError` if there is nothing of a size that can be drawn.
+    `FormatError` if there is nothing of a size that can be drawn, or if all is too small where it lies.
     """
     sketch = Sketch([loop.obstacle.shape for loop in found.loops])
     chains = [_points_of(path) for path in found.contents.open_chains]
@@ -102,6 +105,7 @@ class _Page:
         least = size * NARROWEST / WIDEST
         lack = np.maximum(least - (high - low), 0) / 2 + MARGIN * size
         self.low, self.high = low - lack, high + lack
+        check_size(self.low, self.high)
         self.scale = float(min(np.array([WIDEST, TALLEST]) / (self.high - self.low)))
         self.figure = Figure()
         FigureCanvasAgg(self.figure)
@@ -171,7 +175,7 @@ class _Page:
         dashes: dict[str, Any] = {"linestyle": (0, (5, 4)), "color": VIEW, "linewidth": 0.8}
         self.axes.add_patch(Disc((x, y), radius, fill=False, zorder=0.8, **dashes))
         self.axes.add_patch(Disc((x, y), radius, color=VIEW, alpha=0.045, linewidth=0, zorder=0.5))
-        self.legend[f"R = {plain(self.found.radius)}"] = Line2D([], [], **dashes)
+        self.legend[radius_text(self.found.radius)] = Line2D([], [], **dashes)
         self._marks("start S", [(x, y)], "s", ms=6, mfc=INK, mec=PAPER, mew=0.6)
 
     def labels(self, sketch: Sketch) -> None:
@@ -209,12 +213,13 @@ class _Page:
         self.axes.set_position((left / full, below / total, wide / full, high / total))
         dress(self.axes)
         tick(self.axes)
-        title = self.found.contents.name or self.found.name
+        title = without_controls(self.found.contents.name or self.found.name)
         lines = ((title, 12, INK), (self.found.trouble or "OK", 9.5, OPEN if self.found.trouble else SOFT))
         for k, (line, size, colour) in enumerate(lines):
             place = 1 - (0.24 + 0.24 * k) / total
             look: dict[str, Any] = {"size": size, "color": colour, "parse_math": False}
-            self.figure.text(0.5, place, line, ha="center", va="center", **look)
+            shown = fitted(line, size, 72 * (full - 0.4))
+            self.figure.text(0.5, place, shown, ha="center", va="center", **look)
         if self.legend:
             self.figure.legend(
                 self.legend.values(), self.legend.keys(), loc="lower center",

@@ -9,12 +9,13 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+from flint import fmpq
 from matplotlib.lines import Line2D
 from matplotlib.path import Path as Outline
 from matplotlib.patheffects import withStroke
 
 from exactacq.geometry.strokes import Stroke
-from exactacq.numbers.rationals import plain
+from exactacq.numbers.rationals import nearest_float, plain
 from exactacq.output.figures.canvas import RANGE, Canvas, Spot
 from exactacq.output.figures.labels import BESIDE, FAR, LEADING, NEAR, SMALLEST, LabelRoom, Placed
 from exactacq.output.vocabulary import AWAY, EDGE, INK, PAPER, SOFT, VIEW, Labels, Word, ordinal
@@ -247,9 +248,7 @@ class Lettering:
     @property
     def _radius(self) -> str:
         canvas = self.canvas
-        exact = canvas.scene.radius if canvas.run is None else canvas.run.radius
-        text = f"{Word.RADIUS} = {canvas.radius if exact is None else plain(exact)}"
-        return text if len(text) <= 16 else f"{Word.RADIUS} ≈ {canvas.radius:.6g}"
+        return radius_text(canvas.scene.radius if canvas.run is None else canvas.run.radius)
 
     # -- writing -----------------------------------------------------------------------------------
 
@@ -263,6 +262,13 @@ class Lettering:
             ha="center", va="center_baseline", parse_math=False, clip_on=True, zorder=6,
             path_effects=[withStroke(linewidth=min(2.2, 0.22 * size), foreground=PAPER)],
         )  # fmt: skip
+
+
+def radius_text(radius: fmpq | None) -> str:
+    """What a picture says of the radius of vision."""
+    assert radius is not None, "it is told where there is one"
+    text = f"{Word.RADIUS} = {plain(radius)}"
+    return text if len(text) <= 16 else f"{Word.RADIUS} ≈ {nearest_float(radius):.6g}"
 
 
 def _shortened(name: str) -> str:

@@ -105,9 +105,14 @@ def window(scene: Scene, corners: Sequence[Floats], radius: float, swept: bool) 
     low, high = np.min(corners, axis=0), np.max(corners, axis=0)
     if not (high - low).any():
         low, high = low - radius, high + radius
+    check_size(low, high)
+    return low, high
+
+
+def check_size(low: Floats, high: Floats) -> None:
+    """`FormatError` for a rectangle that is `FINEST` times its distance from the origin or less."""
     if not np.max(high - low) > np.max(np.abs((low, high))) * FINEST:
         raise FormatError("too small to be drawn so far from the origin; move the scene closer")
-    return low, high
 
 
 def turning_places(run: Run) -> list[Point]:
