@@ -188,6 +188,13 @@ def test_before_a_visit_its_number_is_not_told() -> None:
     assert {"O1", "O2", "#1"} <= set(words) and "#2" not in words
 
 
+def test_a_name_that_looks_like_the_order_of_a_visit_is_a_name() -> None:
+    scene = Scene([Circle((5, 0), 2, name="#7")], (0, 0), radius=9)
+    run = xa.sightseer(scene)
+    assert "#7" in [text for text, _ in boxes(xa.figure(run, run.events[0]))]
+    assert not any("order" in text.get_text() for text in xa.figure(scene).legends[0].get_texts())
+
+
 def test_labels_stand_still_from_moment_to_moment() -> None:
     run = xa.sightseer(xa.load("figure2"))
     places = [

@@ -36,6 +36,12 @@ DENSEST, SPARSEST = 4000, 40
 """Points that stand for one curve at most, and those of an outline that distances are taken from."""
 
 
+class _Order(str):
+    """The line of a label that tells the order of a visit: names may look like one."""
+
+    __slots__ = ()
+
+
 class Lettering:
     """The texts of one drawing.
 
@@ -70,7 +76,7 @@ class Lettering:
             if not self._beside(index, texts[index], outlines[index]):
                 self.room.left_out += 1
             canvas.meter.add()
-        if any(line.startswith("#") for lines in texts.values() for line in lines):
+        if any(isinstance(line, _Order) for lines in texts.values() for line in lines):
             look: dict[str, Any] = {"marker": "$\\#$", "markersize": 7, "color": SOFT, "linestyle": ""}
             canvas.legend[f"{ordinal(1)}, {ordinal(2)}, ...: {Word.ORDER}"] = Line2D([], [], **look)
         if self.room.left_out:
@@ -139,7 +145,7 @@ class Lettering:
             if self.labels is not Labels.NUMBERS and not (self._is_wall(index) and index not in visits):
                 lines.append(name if many[name] == 1 or name == bodies[index].label else f"O{index + 1}")
             if self.labels is not Labels.NAMES and index in visits:
-                lines.append(ordinal(visits[index]))
+                lines.append(_Order(ordinal(visits[index])))
             if lines:
                 yield index, lines
 
@@ -191,11 +197,11 @@ class Lettering:
         if placed.leader is not None:
             ends = zip(*(self._in_scene(end) for end in placed.leader), strict=True)
             self.canvas.axes.plot(*ends, color=EDGE, linewidth=0.6, zorder=5.5, solid_capstyle="round")
-        here = [line for line in lines if self._has_begun(index) or not line.startswith("#")]
+        here = [line for line in lines if self._has_begun(index) or not isinstance(line, _Order)]
         for number, line in enumerate(here):
             x, y = placed.middle
             y += ((len(here) - 1) / 2 - number) * LEADING * placed.size
-            is_order = line.startswith("#") and len(lines) > 1
+            is_order = isinstance(line, _Order) and len(lines) > 1
             is_soft = is_order and placed.size > SMALL
             self._write((x, y), line, placed.size, SOFT if is_soft else INK, not is_order)
         return True
