@@ -33,6 +33,7 @@ from exactacq.output.vocabulary import AWAY
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle, Polygon, Terrain
 from exactacq.scene.terrain_components import ground_of
+from exactacq.sensing.event import EventKind
 from exactacq.strategies.run import Run
 from exactacq.strategies.seed_spreader.strategy import seed_spreader
 from exactacq.strategies.sightseer.strategy import sightseer
@@ -486,3 +487,13 @@ def test_numbers_at_ticks_are_short_whatever_the_unit_is(power: int) -> None:
     labels = [label.get_text() for label in (*axes.get_xticklabels(), *axes.get_yticklabels())]
     assert max(map(len, labels)) < 6
     assert "1e" in axes.xaxis.get_offset_text().get_text()
+
+
+def test_a_title_is_no_wider_than_its_page() -> None:
+    run = gallery_run("tight-l3")
+    leave = next(event for event in run.events if event.kind is EventKind.LEAVE)
+    drawn = figure(run, leave)
+    drawn.canvas.draw()
+    told = drawn.texts[1]
+    assert told.get_window_extent().width < drawn.bbox.width
+    assert told.get_text() == "after ≈ 14.20286 of ≈ 30.292123,  1 of 1 obstacle acquired"

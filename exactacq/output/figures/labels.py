@@ -199,15 +199,15 @@ def around(middle: Spot, extents: Spot) -> Box:
 
 def extent(lines: Sequence[str], size: float) -> Spot:
     """Width and height of a label of some lines."""
-    wide = max(_width(line) for line in lines)
+    wide = max(width(line) for line in lines)
     return wide * size, (0.85 + LEADING * (len(lines) - 1)) * size
 
 
 def fitted(line: str, size: float, most: float) -> str:
     """A line of text, cut if it is wider than *most*: then it ends with "…"."""
-    if _width(line) * size <= most:
+    if width(line) * size <= most:
         return line
-    kept = bisect(range(1, len(line)), most, key=lambda count: _width(line[:count] + "…") * size)
+    kept = bisect(range(1, len(line)), most, key=lambda count: width(line[:count] + "…") * size)
     return line[:kept].rstrip() + "…"
 
 
@@ -222,9 +222,9 @@ def _gaps(spots: Floats, extents: Spot, target: Floats) -> Floats:
 
 
 @lru_cache(maxsize=4096)
-def _width(text: str) -> float:
-    """The width of a text of size 1, in bold letters; names may have none that leave a trace."""
-    vertices, codes = text_to_path.get_text_path(FontProperties(weight="bold"), text)
+def width(text: str, weight: str = "bold") -> float:
+    """The width of a text of size 1; names may have no letters that leave a trace."""
+    vertices, codes = text_to_path.get_text_path(FontProperties(weight=weight), text)
     if not len(vertices):
         return BLANK
     return float(Path(vertices, codes).get_extents().width) / text_to_path.FONT_SCALE

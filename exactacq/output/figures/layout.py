@@ -16,15 +16,17 @@ from matplotlib.legend_handler import HandlerTuple
 from exactacq.errors import without_controls
 from exactacq.files.whole_files import readable
 from exactacq.output.figures.canvas import Canvas
-from exactacq.output.figures.labels import fitted
+from exactacq.output.figures.labels import fitted, width
 from exactacq.output.figures.lettering import Lettering
 from exactacq.output.vocabulary import INK, LINE, MISSED, SOFT, Labels, Word, missed_word
 from exactacq.strategies.run import SeedSpreaderRun, SightseerRun
 
 CLOSED_FORM = 40
 """Closed forms of at most this many characters are shown in the title, the decimal value of others."""
-TITLE = 12.0
-"""Size of a title, in points."""
+SHORT = 10
+"""The same where two of them would be wider than the page."""
+TITLE, BELOW = 12.0, 9.5
+"""Sizes of a title and of the lines below it, in points."""
 PLAIN = (-7, 9)
 """Powers of ten at which the numbers at ticks begin to have their power beside the axis."""
 LEGEND: dict[str, Any] = {
@@ -87,17 +89,17 @@ def tick(axes: Any) -> None:
     axes.locator_params(nbins=6, min_n_ticks=2)
 
 
-def title(drawing: Canvas) -> list[str]:
-    """What is drawn, how far the robot came, and what was missed."""
+def title(drawing: Canvas, limit: int = CLOSED_FORM) -> list[str]:
+    """What is drawn, how far the robot came, and what was missed; closed forms have *limit* characters."""
     run, name = drawing.run, without_controls(drawing.scene.name or "")
     if run is None:
         count = sum(not o.is_enclosure for o in drawing.scene.obstacles)
         room = " in an enclosure" if drawing.scene.enclosure is not None else ""
         return [name or "Scene", f"{_counted(count)}{room}"]
     first = f"{run.title}: {name}" if name else run.title
-    length = " ".join(readable(run.length, CLOSED_FORM, digits=8))
+    length = " ".join(readable(run.length, limit, digits=8))
     if drawing.moment is not None:
-        so_far = " ".join(readable(drawing.moment.at, CLOSED_FORM, digits=8))
+        so_far = " ".join(readable(drawing.moment.at, limit, digits=8))
         seen = f"{len(drawing.moment.map.acquired)} of {_counted(drawing.count)} {Word.ACQUIRED}"
         return [first, f"after {so_far} of {length},  {seen}"]
     mapped = not isinstance(run, SightseerRun)
@@ -123,6 +125,8 @@ class _Setting:
         self.drawing = drawing
         self.wide, self.high = drawing.width * drawing.scale, drawing.height * drawing.scale
         first, *others = title(drawing)
+        if any(width(line, "normal") * BELOW > 72 * self.full for line in others):
+            others = title(drawing, SHORT)[1:]
         self.title = [fitted(first, TITLE, 72 * (self.full - 0.4)), *others]
 
     @property
@@ -162,7 +166,7 @@ class _Setting:
         tick(axes)
         middle, top = (x + self.full / 2) / full, 1 - (total - (bottom + self.high + self.above)) / total
         for k, line in enumerate(self.title):
-            size, colour = ((TITLE, INK), (9.5, SOFT), (9.5, MISSED))[k]
+            size, colour = ((TITLE, INK), (BELOW, SOFT), (BELOW, MISSED))[k]
             place = top - (0.24 + 0.24 * k) / total
             page.text(
                 middle, place, line, ha="center", va="center", size=size, color=colour, parse_math=False
