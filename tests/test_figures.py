@@ -17,6 +17,7 @@ import pytest
 import shapely
 from gallery_runs import gallery_run
 from matplotlib.collections import PathCollection
+from matplotlib.figure import Figure
 from matplotlib.path import Path as Outline
 from nightly import some
 from sweeps import swept_scene
@@ -37,6 +38,7 @@ from exactacq.sensing.event import EventKind
 from exactacq.strategies.run import Run
 from exactacq.strategies.seed_spreader.strategy import seed_spreader
 from exactacq.strategies.sightseer.strategy import sightseer
+from exactacq.visibility.shortest_path import shortest_path
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -497,3 +499,16 @@ def test_a_title_is_no_wider_than_its_page() -> None:
     told = drawn.texts[1]
     assert told.get_window_extent().width < drawn.bbox.width
     assert told.get_text() == "after ≈ 14.20286 of ≈ 30.292123,  1 of 1 obstacle acquired"
+
+
+def test_tiny_scenes_are_not_distorted() -> None:
+    unit = fmpq(10) ** -60
+    scene = Scene([Circle((5 * unit, 0), unit)], (0, 0), radius=9 * unit)
+    way = shortest_path(scene, (0, 0), (9 * unit, unit))
+    for page in (figure(way), figure(scene, ax=Figure().add_subplot())):
+        page.draw_without_rendering()
+        axes = page.axes[0]
+        across, up = (axes.transData.transform((float(x), float(y))) for x, y in ((unit, 0), (0, unit)))
+        start = axes.transData.transform((0, 0))
+        assert (across - start)[0] == pytest.approx((up - start)[1], rel=1e-3)
+    assert figure(way).axes[0].get_title() == "length ≈ 9.10034e-60"

@@ -23,6 +23,8 @@ from exactacq.strategies.run import SeedSpreaderRun, SightseerRun
 
 CLOSED_FORM = 40
 """Closed forms of at most this many characters are shown in the title, the decimal value of others."""
+LOST = 1e-30
+"""Matplotlib takes shorter sides for so long when it makes the scales of two axes equal."""
 SHORT = 10
 """The same where two of them would be wider than the page."""
 TITLE, BELOW = 12.0, 9.5
@@ -59,7 +61,10 @@ def in_axes(drawing: Canvas, axes: Any, labels: Labels) -> None:
     """A drawing in axes that are there, with a title above and the legend below."""
     drawing.draw(axes)
     Lettering(drawing, labels).draw()
-    axes.set_aspect("equal", adjustable="box")
+    if min(drawing.width, drawing.height) > LOST:
+        axes.set_aspect("equal", adjustable="box")
+    else:
+        axes.set_box_aspect(drawing.height / drawing.width)
     dress(axes)
     axes.set_title("\n".join(title(drawing)), size=9, color=INK, parse_math=False)
     if drawing.legend:

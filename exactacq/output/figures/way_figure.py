@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch, Rectangle
 from matplotlib.path import Path as Outline
 
+from exactacq.files.whole_files import readable
 from exactacq.output.figures.canvas import NARROWEST, STYLES, TALLEST, WIDEST
 from exactacq.output.figures.layout import CLOSED_FORM, dress
 from exactacq.output.figures.sweep import window
@@ -50,11 +51,10 @@ def way_figure(found: ShortestPath) -> Figure:
 
 
 def draw_path(axes: Any, found: ShortestPath, regions: list[Region], view: tuple[Any, Any]) -> None:
-    """Draw a shortest path in axes that show a rectangle of the scene."""
+    """Draw a shortest path in axes that show a rectangle of the scene and have the ratio of its sides."""
     (x0, y0), (x1, y1) = view
     axes.set_xlim(x0, x1)
     axes.set_ylim(y0, y1)
-    axes.set_aspect("equal")
     axes.set_facecolor(GROUND)
     for obstacle, region in zip(found.scene.obstacles, regions, strict=True):
         outline = region.outline
@@ -79,5 +79,5 @@ def draw_path(axes: Any, found: ShortestPath, regions: list[Region], view: tuple
     axes.plot(*found.start.xy, "s", ms=6, mfc=INK, mec=PAPER, mew=0.6, zorder=5)
     axes.plot(*found.end.xy, "D", ms=6, mfc=INK, mec=PAPER, mew=0.6, zorder=5)
     dress(axes)
-    told = str(found.length) if len(str(found.length)) <= CLOSED_FORM else f"{float(found.length):.6g}"
+    told = readable(found.length, CLOSED_FORM, digits=6)[0]
     axes.set_title(f"{Word.LENGTH} {told}", size=9.5, color=INK, parse_math=False)
