@@ -15,7 +15,6 @@ from exactacq.sensing.event import Ending, EventKind, Occasion, Reason
 
 OLD_VERSIONS = (2, 3, 4, 5)
 """The versions that are still read."""
-_TRAPPED = "the start or the end of the M-line is trapped in obstacle #"
 _WORDS: dict[tuple[str, str], dict[str, str]] = {
     (EventKind.HIT, "from #"): {"occasion": Occasion.ADVANCE},
     (EventKind.LEAVE, "to #"): {"occasion": Occasion.ADVANCE},
