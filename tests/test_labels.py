@@ -19,8 +19,9 @@ from nightly import some
 import exactacq as xa
 from exactacq import FormatError, cli
 from exactacq.files.octagons import random_octagons
+from exactacq.output.figures import labels
 from exactacq.output.figures.drawing_figure import drawing
-from exactacq.output.figures.labels import FAR, GAP, SPACE, LabelRoom, around, extent
+from exactacq.output.figures.labels import FAR, GAP, SPACE, LabelRoom, around, extent, fitted, width
 from exactacq.output.vocabulary import Labels
 from exactacq.scene.scene import Scene
 from exactacq.scene.shapes import Circle, Polygon
@@ -146,6 +147,11 @@ def test_figures_of_names_with_control_characters_are_xml(tmp_path: Path) -> Non
 def test_names_in_which_nothing_is_to_be_seen_are_drawn(name: str) -> None:
     scene = Scene([Circle((0, 0), 3, name=name)], (9, 9), radius=5, name=name)
     assert len(xa.figure(scene).axes[0].texts) == 3
+
+
+def test_of_an_endless_name_only_what_fits_is_measured(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(labels, "width", lambda text: width(text) if len(text) <= 400 else pytest.fail())
+    assert fitted("endless " * 10**6, 12.0, 300.0).endswith("…")
 
 
 def test_figures_of_checks_show_short_texts_that_are_xml(tmp_path: Path) -> None:

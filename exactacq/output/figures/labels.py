@@ -37,6 +37,8 @@ NEAR, FAR = 14.0, 44.0
 """Labels are at most so far from what they name: without a leader line, and with one."""
 CLEAR = 4.0
 """Cells with lines below a label that are no reason to go far away for."""
+LONG = 400
+"""Lines of so many characters are wider than any page, and it takes long to tell how wide."""
 BLANK = 0.3
 """Width of a text of size 1 in which nothing is to be seen."""
 INSIDE, MARK = 0.1, 2.0
@@ -205,9 +207,9 @@ def extent(lines: Sequence[str], size: float) -> Spot:
 
 def fitted(line: str, size: float, most: float) -> str:
     """A line of text, cut if it is wider than *most*: then it ends with "…"."""
-    if width(line) * size <= most:
+    if len(line) < LONG and width(line) * size <= most:
         return line
-    kept = bisect(range(1, len(line)), most, key=lambda count: width(line[:count] + "…") * size)
+    kept = bisect(range(1, min(len(line), LONG)), most, key=lambda count: width(line[:count] + "…") * size)
     return line[:kept].rstrip() + "…"
 
 
