@@ -8,6 +8,10 @@ import pytest
 
 from exactacq import Length
 from exactacq.files.whole_files import readable
+from exactacq.output.report import console, run_report
+from exactacq.scene.scene import Scene
+from exactacq.scene.shapes import Circle
+from exactacq.strategies.sightseer.strategy import sightseer
 
 
 def angle(t: Fraction) -> Length:
@@ -36,3 +40,10 @@ def test_forms_of_huge_numbers_are_not_even_written_out(monkeypatch: pytest.Monk
     assert readable(Length(long), 40, 15) == ("≈ 1",)
     assert readable(angle(long), 40, 15) == ("≈ 1.5707963267949",)
     assert readable(Length.turns(long), 40, 15) == ("≈ 6.28318530717959",)
+
+
+def test_places_far_from_the_origin_are_told_apart(capsys: pytest.CaptureFixture[str]) -> None:
+    x, y = 500_000, 5_400_000  # metres of a map
+    console().print(run_report(sightseer(Scene([Circle((x + 4, y + 3), 3)], (x, y), radius=9))))
+    assert "S = (500000, 5400000)" in (out := capsys.readouterr().out)
+    assert "(500001.6, 5400001.2)" in out

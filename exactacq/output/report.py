@@ -33,6 +33,8 @@ CLOSED_FORM = 60
 """Closed forms of at most this many characters are shown; longer ones are in the trace."""
 WORDS = {ViewKind.EDGE: "boundary piece", ViewKind.WINDOW: "window", ViewKind.RANGE: "range arc"}
 """What the kinds of pieces of a view are called."""
+FAR = 1e5
+"""Coordinates from here on are often those of maps in metres, far from the origin."""
 ROWS = 60
 """Most rows of a table, and most names of a list; a trace has them all."""
 
@@ -319,9 +321,10 @@ def _place(point: Point) -> str:
 
 
 def _number(value: Real) -> str:
-    """A coordinate: rational if that is short, else six digits."""
+    """A coordinate: rational if that is short, else in six digits; far from the origin in ten."""
     exact = plain(value.rational) if value.rational is not None else ""
-    return exact if 0 < len(exact) <= 8 else f"{float(value):.6g}"
+    near = float(value)
+    return exact if 0 < len(exact) <= 8 else f"{near:.{6 if abs(near) < FAR else 10}g}"
 
 
 def _rational(value: fmpq) -> str:
