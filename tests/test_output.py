@@ -47,3 +47,8 @@ def test_places_far_from_the_origin_are_told_apart(capsys: pytest.CaptureFixture
     console().print(run_report(sightseer(Scene([Circle((x + 4, y + 3), 3)], (x, y), radius=9))))
     assert "S = (500000, 5400000)" in (out := capsys.readouterr().out)
     assert "(500001.6, 5400001.2)" in out
+
+
+def test_a_long_radius_is_told_once_to_be_rounded(capsys: pytest.CaptureFixture[str]) -> None:
+    console().print(run_report(sightseer(Scene([], (0, 0), radius=Fraction(10**40 + 1, 10**39)))))
+    assert "R ≈ 10.0000000000, 0 obstacles" in capsys.readouterr().out

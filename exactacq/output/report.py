@@ -56,7 +56,7 @@ def run_report(run: Run) -> RenderableType:
     names = list(run.names())
     parts: list[RenderableType] = [
         Text(f"{run.title} on {without_controls(run.scene.name or 'a scene')}", style="bold"),
-        f"S = {_place(run.start)}, R = {_rational(run.radius)}, {_counted(len(run.obstacles), 'obstacle')}",
+        f"S = {_place(run.start)}, {_range(run.radius)}, {_counted(len(run.obstacles), 'obstacle')}",
         "",
     ]
     if isinstance(run, SeedSpreaderRun):
@@ -64,7 +64,7 @@ def run_report(run: Run) -> RenderableType:
     if isinstance(run, OwnRun):
         parts.append(f"ended because {run.events[-1].describe(names)}\n")
     if not run.map.seen and run.scene.obstacles:
-        parts.append(f"nothing is in sight of S within R = {_rational(run.radius)}\n")
+        parts.append(f"nothing is in sight of S within {_range(run.radius)}\n")
     if run.visits:
         parts += [_links(run, names), ""] if isinstance(run, SightseerRun) else []
         parts.append(_listed(Word.ORDER, (names[k] for k in run.visits), " → "))
@@ -291,7 +291,7 @@ def _missed(run: Run, names: list[str]) -> Iterator[RenderableType]:
     if not isinstance(run, SightseerRun):
         return
     yield (
-        f"So this scene does not satisfy the paper's model (a) for R = {_rational(run.radius)}: "
+        f"So this scene does not satisfy the paper's model (a) for {_range(run.radius)}: "
         "no chain of links of at most R leads from S to every obstacle."
     )
 
@@ -331,6 +331,10 @@ def _rational(value: fmpq) -> str:
     """A number as given, unless that takes too much room."""
     exact = plain(value)
     return exact if len(exact) <= CLOSED_FORM // 2 else f"≈ {Real(value).decimal(12)}"
+
+
+def _range(radius: fmpq) -> str:
+    return f"{Word.RADIUS} = {_rational(radius)}".replace("= ≈", "≈")
 
 
 def _counted(count: int, what: str) -> str:
