@@ -325,7 +325,7 @@ def test_broken_sweeps_are_refused(part: tuple[object, ...], value: object, what
 @pytest.mark.parametrize(
     ("part", "value", "what"),
     [
-        (("radius",), "9" * 400, "radius of more than"),
+        (("radius",), "9" * 400, "from 1/10.100 to 10.100"),
         (("path", 0, "start"), ["0", "9" * 400], "farther than"),
         (("path", 0, "end"), ["0", "0"], "from one place to another"),
         (("path", 2, "end"), ["3", "0"], "from one place to another"),

@@ -27,7 +27,6 @@ from exactacq.numbers.length import Length
 from exactacq.numbers.number_json import Decoder, Encoder, Number, is_place
 from exactacq.numbers.rationals import rational
 from exactacq.output.old_run_files import OLD_VERSIONS, upgraded
-from exactacq.scene.scene import radius_of
 from exactacq.scene.terrain_components import ground_of
 from exactacq.scene.validation import LIMIT, LIMIT_TEXT
 from exactacq.sensing.decision import Candidate, Decision, Rule
@@ -133,8 +132,10 @@ def _run(document: dict[str, Any]) -> Run:
 def _without_bounds(document: dict[str, Any]) -> SightseerRun | SeedSpreaderRun | OwnRun:
     numbers = _Points(Decoder(document["numbers"], ViewLength.of_parts))
     scene = scene_of(document["scene"])
-    start = numbers.point(document["start"])
-    radius = radius_of(scene, rational(document["radius"]), start)
+    radius, start = rational(document["radius"]), numbers.point(document["start"])
+    if not 1 / LIMIT <= radius <= LIMIT:
+        told = shown(document["radius"])
+        raise FormatError(f"the radius must be positive, from 1/{LIMIT_TEXT} to {LIMIT_TEXT}, not {told}")
     strategy = document["strategy"]
     is_own = _truth(document.get("own", False)) and is_name(strategy)
     if not is_own and strategy not in (SightseerRun.strategy, SeedSpreaderRun.strategy):
