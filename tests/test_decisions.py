@@ -550,7 +550,7 @@ class TestLies:
     @pytest.mark.parametrize(
         ("changes", "words"),
         [
-            ({"chosen": 0, "others": ()}, "for a backtrack of 0"),
+            ({"chosen": 0, "others": ()}, "for a backtrack to 0"),
             ({"others": ((2, 9),)}, "tells lengths of others"),
             ({"length": 9}, "the radius"),
             ({"others": (1,)}, "as unvisited"),

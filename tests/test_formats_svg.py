@@ -203,11 +203,12 @@ def test_what_is_hidden_or_not_drawn_is_left_out(tmp_path: Path) -> None:
 def test_of_a_switch_what_asks_for_nothing_is_shown(tmp_path: Path) -> None:
     scene = read(
         tmp_path,
-        """<switch><circle systemLanguage="de" r="1"/><circle r="2"/><circle r="3"/></switch>
-        <switch><foreignObject requiredExtensions="x"/><g><circle cx="9" r="1"/></g></switch>""",
+        """<switch><title/><circle systemLanguage="de" r="1"/><circle r="2"/><circle r="3"/></switch>
+        <switch><foreignObject requiredExtensions="x"/><g><circle cx="9" r="1"/></g></switch>
+        <switch><defs/><circle systemLanguage="de" cx="20" r="3"/></switch>""",
         root='transform="scale(2)"',
     )
-    assert areas(scene) == ["4*pi", "pi"]
+    assert areas(scene) == ["4*pi", "pi", "9*pi"]
     assert scene.notes == ("left out 3 other choices of a switch, 1 transform of the whole drawing",)
 
 

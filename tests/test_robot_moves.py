@@ -275,3 +275,12 @@ class TestPaths:
         robot.go_to((0, 1))
         with pytest.raises(xa.MoveError, match="begins elsewhere"):
             robot.go_along(path)
+
+    def test_keep_to_the_boundary_where_the_robot_is(self) -> None:
+        walls = xa.Circle((4, 0), 1), xa.Polygon([(3, -2), (5, -2), (5, 2), (3, 2)])
+        around, other = (xa.Robot(xa.Scene([wall], start=(0, 0), radius=20)) for wall in walls)
+        around.go_to((3, 0))
+        around.circle()
+        other.go_to((3, 0))
+        with pytest.raises(xa.MoveError, match="is not on the boundary"):
+            other.go_along(around.path_to((6, 0)))

@@ -136,7 +136,7 @@ class _Told:
         kinds = ((e.kind, "S" if e.obstacle is None else e.obstacle) for e in aims)
         if (aim := next(kinds, None)) != (kind, self.decision.chosen):
             where = "stays" if aim is None else f"goes to {aim[1]} ({aim[0]})"
-            self._refuse(f"is for a {kind} of {self.decision.chosen}, but the robot {where}")
+            self._refuse(f"is for a {kind} to {self.decision.chosen}, but the robot {where}")
 
     def _same(self, told: list[int], true: Collection[int], what: str) -> None:
         """Some of the obstacles of which it is true are told, and the number of the others."""

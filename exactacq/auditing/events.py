@@ -58,7 +58,8 @@ def check_events(run: Run, rng: Random, moves: Collection[EventKind]) -> None:
     for event in run.events:
         if event.kind not in moves and event.kind not in SENSED:
             raise AuditError(f"{event_name(run, event)} is of no known kind")
-        if event.obstacle not in (obstacles if event.kind in SENSED else (None, *obstacles)):
+        is_known = event.obstacle in obstacles if event.obstacle is not None else event.kind not in SENSED
+        if not is_known:
             raise AuditError(f"{event_name(run, event)} is about none that the run has")
         if not _is_at(run, event):
             raise AuditError(f"{event_name(run, event)} is not on the path: {place_text(event.point)}")

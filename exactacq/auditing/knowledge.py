@@ -195,12 +195,13 @@ class Knowledge:
 
     def _is_by(self, event: Event, after: int, inside: Point | None) -> bool:
         """Whether an event is not beyond so many pieces, and a place inside the next one."""
-        here = arb(0)
-        if inside is not None:
-            curve, point = self.run.path[after].curve, inside
-            here = refined(lambda bits: ball_to(curve, point, bits))
         whole, way = event_position(self.run, event)
-        return whole < after or (whole == after and not way > here)
+        if whole != after:
+            return whole < after
+        if inside is None:
+            return not way > 0
+        curve = self.run.path[after].curve
+        return not way > refined(lambda bits: ball_to(curve, inside, bits))
 
     def _beside_on(self, k: int, point: Point, shift: fmpq) -> Point | None:
         """A rational place of piece k about *shift* beyond a point of it, None if none is at hand.

@@ -40,12 +40,13 @@ Runs have numbers of some 2^18 bits. Heights are no measure: those of nested num
 MAX_TOTAL = 1 << 30
 """Most bits of all numbers of a document, which bounds the memory that they take."""
 MAX_INVERTED = 10**6
-"""Most cubes of degrees of fields with inverses, times squares of lengths in `INVERTED_BITS`: about a second.
+"""Most work for inverses, about a second: the sum, over all of them, of the cube of the field's degree times
+the square of the longest coefficient in units of `INVERTED_BITS`.
 
 Files that are written have none: an element of the field of one root is written as a form.
 """
 INVERTED_BITS = 512
-"""An inverse takes the longer, by the square, the more often its longest coefficient is as long as this."""
+"""The unit of length: an inverse takes time in proportion to the square of its longest coefficient."""
 MAX_PARTS = 8
 """Most parts of a function of which a zero is read: a length of views has three."""
 MAX_FINENESS = 1 << 12

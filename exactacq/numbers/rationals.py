@@ -176,7 +176,10 @@ def round_to_float(ball: Enclosing, equals: Callable[[fmpq], bool]) -> float:
 
 
 def decimal_string(ball: Enclosing, digits: int) -> str:
-    """Decimal with *digits* significant digits from ``ball(working_bits)``; 0 if 2^16 bits show none."""
+    """Decimal with *digits* significant digits from ``ball(working_bits)``.
+
+    A zero with an exponent if 2^16 bits show none.
+    """
     if operator.index(digits) < 1:
         raise ValueError(f"at least 1 digit is needed, not {digits}")
     bits = int(digits * 3.33) + 64

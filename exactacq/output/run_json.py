@@ -42,6 +42,8 @@ from exactacq.visibility.links import START
 FORMAT, VERSION = "exactacq run", 6
 DIGITS = 20
 """Decimals beside exact values are for readers: they are not read back."""
+BEYOND = 4 * LIMIT
+"""Farther from the axes there is nothing of a run: see `LIMIT`."""
 FACTS = ("occasion", "other", "reason", "ending")
 """Fields of events that are written where they apply."""
 CLOSED = 200
@@ -317,8 +319,9 @@ class _Points:
         key = is_place(x), str(x), is_place(y), str(y)
         if key not in self._points:
             point = Point(self.numbers.number(x), self.numbers.number(y))
-            if any(abs(number.ball(64)) > LIMIT for number in (point.x, point.y)):
-                raise FormatError(f"a place of the run lies farther than {LIMIT_TEXT} from the axes")
+            # Vertices keep to the limit; arcs between them, and their centres, may lie a little beyond.
+            if any(abs(number.ball(64)) > BEYOND for number in (point.x, point.y)):
+                raise FormatError(f"a place of the run lies much farther than {LIMIT_TEXT} from the axes")
             self._points[key] = point
         return self._points[key]
 

@@ -307,7 +307,9 @@ class Memory:
     def _stays_on_way(self, piece: Piece) -> bool:
         """Whether a straight piece, which begins on the last way, is known to end there too."""
         try:
-            return self._way is not None and self._way.passes(piece.end)
+            # Farther on along the line, where most ways lead, it takes long to prove that they are on it.
+            way = self._way
+            return way is not None and way.contains(piece.end) and way.passes(piece.end)
         except Undecided:
             return False
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from enum import Enum
 from functools import cmp_to_key, partial
 from itertools import pairwise
@@ -532,10 +533,8 @@ class Observer:
     def _way_to(self, point: Point) -> tuple[Length, bool]:
         """Length and sense of the shorter walk along the present boundary, which is known, to a point."""
         walker = self._walker_on_known_boundary()
-        try:
+        with on_this_boundary():
             return walker.way_to(point)
-        except ValueError as error:
-            raise MoveError(f"no way along this boundary: {error}") from None
 
     def _walker_on_known_boundary(self) -> Walker:
         at = self._at_boundary()
@@ -562,3 +561,12 @@ def _start_flaws(
 def _hulls(table: EdgeTable, ground: Ground) -> Floats:
     """Boxes around the whole obstacles of components, which their boundaries do not leave."""
     return table.hulls[[component.obstacle.index for component in ground.components]]
+
+
+@contextmanager
+def on_this_boundary() -> Iterator[None]:
+    """`MoveError` within this context for a point that is not on the boundary where the robot is."""
+    try:
+        yield
+    except ValueError as error:
+        raise MoveError(f"no way along this boundary: {error}") from None

@@ -33,7 +33,7 @@ from exactacq.strategies.moves import (
     hand_along,
     kinds_of,
 )
-from exactacq.strategies.observer import Observer
+from exactacq.strategies.observer import Observer, on_this_boundary
 from exactacq.strategies.routes import Exit, Route
 from exactacq.strategies.sightings import Sightings
 from exactacq.visibility.links import START, Link, Node, lexicographic
@@ -423,8 +423,11 @@ class Robot(Observer):
         """Walk as a path leads: on from a lap's end too, and along a boundary that a border cuts."""
         walker, obstacle = self._walker, self._at_boundary()
         awaited = Awaited(kinds_of(until), walker.position, just_past)
-        self._explain(self._decided(reason))
-        for curve in walker.boundary().walk(walker.position, end, hand == "left"):
+        decided = self._decided(reason)
+        with on_this_boundary():
+            curves = walker.boundary().walk(walker.position, end, hand == "left")
+        self._explain(decided)
+        for curve in curves:
             sighting = self._walk_along(Piece("boundary", obstacle, curve), awaited)
             if sighting is not None:
                 return Halt(HaltKind.EVENT, walker.position, self.at, sighting)

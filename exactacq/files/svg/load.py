@@ -137,10 +137,11 @@ class _SvgReader:
             self._draw(part, frame)
 
     def _chosen(self, parts: list[Element]) -> list[Element]:
-        """Of the elements in a ``switch`` the first that asks a reader for nothing."""
-        shown = [part for part in parts if not any(key in part.attributes for key in CONDITIONS)][:1]
-        self.drawing.dropped.update(["other choice of a switch"] * (len(parts) - len(shown)))
-        return shown
+        """Of what a ``switch`` may draw the first that asks a reader for nothing, or else the first."""
+        choices = [part for part in parts if part.kind in (*GROUPS, *SHAPES, *LEFT_OUT[:3], "svg", "use")]
+        free = [part for part in choices if not any(key in part.attributes for key in CONDITIONS)]
+        self.drawing.dropped.update(["other choice of a switch"] * (len(choices) - 1))
+        return (free or choices)[:1]
 
     def _count(self, element: Element) -> None:
         """`FormatError` if uses make too much of a file, of its elements or of their long attributes."""
