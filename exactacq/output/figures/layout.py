@@ -26,7 +26,7 @@ CLOSED_FORM = 40
 LOST = 1e-30
 """Matplotlib takes shorter sides for so long when it makes the scales of two axes equal."""
 SHORT = 10
-"""The same where two of them would be wider than the page."""
+"""So many where a line with longer closed forms would be wider than the page."""
 TITLE, BELOW = 12.0, 9.5
 """Sizes of a title and of the lines below it, in points."""
 PLAIN = (-7, 9)
